@@ -1,0 +1,97 @@
+//! A scene together with the picture that is asked of it.
+
+use crate::Scene;
+use std::fmt;
+
+/// The lowest recursion depth: it traces nothing and gives a black picture.
+pub const MIN_DEPTH: i32 = -1;
+/// The highest recursion depth.
+pub const MAX_DEPTH: i32 = 10_000;
+/// The largest number of pixels of a picture: 2^30.
+pub const MAX_PIXELS: u64 = 1 << 30;
+
+/// Width and height of a picture in pixels; both at least 1, their product at most [`MAX_PIXELS`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Resolution {
+    width: u32,
+    height: u32,
+}
+
+impl Resolution {
+    /// A resolution of `width` by `height` pixels.
+    ///
+    /// # Errors
+    /// [`DescriptionError::Resolution`] where there would be no pixels, or more than [`MAX_PIXELS`].
+    pub fn new(width: i64, height: i64) -> Result<Self, DescriptionError> {
+        let error = DescriptionError::Resolution { width, height };
+        match (u32::try_from(width), u32::try_from(height)) {
+            (Ok(w), Ok(h)) if w > 0 && h > 0 && u64::from(w) * u64::from(h) <= MAX_PIXELS => {
+                Ok(Self { width: w, height: h })
+            }
+            _ => Err(error),
+        }
+    }
+
+    /// Pixels across.
+    #[must_use]
+    pub const fn width(self) -> u32 {
+        self.width
+    }
+
+    /// Pixels down.
+    #[must_use]
+    pub const fn height(self) -> u32 {
+        self.height
+    }
+
+    /// Pixels in all.
+    #[must_use]
+    pub fn pixels(self) -> u64 {
+        u64::from(self.width) * u64::from(self.height)
+    }
+}
+
+impl fmt::Display for Resolution {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}x{}", self.width, self.height)
+    }
+}
+
+/// What a scene file says: the thesis' `RenderDescr` (appendix A.5).
+#[derive(Clone, Debug, PartialEq)]
+pub struct Description {
+    /// The size of the picture.
+    pub resolution: Resolution,
+    /// How many times a ray may be reflected or refracted, [`MIN_DEPTH`] to [`MAX_DEPTH`].
+    pub max_depth: i32,
+    /// The scene.
+    pub scene: Scene,
+}
+
+/// A number that no picture can be made with.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum DescriptionError {
+    /// No pixels, or too many of them.
+    Resolution {
+        /// The width that was asked for.
+        width: i64,
+        /// The height that was asked for.
+        height: i64,
+    },
+}
+
+impl fmt::Display for DescriptionError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self::Resolution { width, height } = self;
+        if *width < 1 || *height < 1 {
+            write!(f, "a picture of {width} by {height} pixels has no pixels; both must be at least 1")
+        } else {
+            write!(
+                f,
+                "a picture of {width} by {height} pixels is too large; the limit is {MAX_PIXELS} pixels in all"
+            )
+        }
+    }
+}
+
+impl std::error::Error for DescriptionError {}

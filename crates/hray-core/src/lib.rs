@@ -1,0 +1,29 @@
+//! The vocabulary of hray: what a scene is made of, as plain data.
+//!
+//! Nothing here does input or output, starts a thread, or traces a ray. The front ends of the language
+//! build a [`Description`]; the renderer reads it. Names are the field's; the thesis' names live in
+//! `hray-model`, and ARCHITECTURE.md has the glossary between the two.
+//!
+//! Conventions: lengths are in the scene's own unit, the y axis points up, and the classic camera looks
+//! through a window in the plane z = 0. Everything is `f64`.
+
+mod camera;
+mod color;
+mod description;
+mod light;
+mod material;
+mod noise_tables;
+mod scene;
+mod shape;
+mod texture;
+
+pub use camera::WindowCamera;
+pub use color::Rgb;
+pub use description::{Description, DescriptionError, MAX_DEPTH, MAX_PIXELS, MIN_DEPTH, Resolution};
+pub use glam::DVec3;
+pub use light::Light;
+pub use material::Material;
+pub use noise_tables::{NoiseTables, NoiseTablesError};
+pub use scene::{Primitive, Scene};
+pub use shape::{Plane, Shape, Sphere};
+pub use texture::{NoiseTexture, Texture};
