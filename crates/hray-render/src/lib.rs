@@ -1,1 +1,22 @@
-//! placeholder
+//! From a scene to the colours of its pixels.
+//!
+//! [`render`] is the one entry: a scene, noise tables and [`Settings`] in; runs of pixels out, in order, each
+//! encoded by the caller on the thread that rendered it. Nothing here touches a file. The value of a pixel
+//! depends on the scene, the settings and the pixel's own coordinates; the number of threads, the order in
+//! which runs are finished and the width of the machine's vectors change no bit of it.
+//!
+//! The integrator is the thesis' (§2.3, appendix A.2), in the same order of operations as `hray-model`, which
+//! the `conformance` crate compares it with bit by bit. What differs is only the arrangement: rays travel in
+//! batches, grouped by what they hit, and every step works on as many of them as the machine has lanes.
+
+mod classic;
+mod control;
+mod render;
+mod sampler;
+mod settings;
+mod statistics;
+
+pub use control::Control;
+pub use render::{RenderError, render};
+pub use settings::{MAX_SAMPLES, Region, RegionError, Settings};
+pub use statistics::{RayCounts, Statistics};

@@ -1,0 +1,185 @@
+//! One level of the recursion: a batch of rays, what they hit, and what is still owed to them.
+
+use super::lanes::MAX_LANES;
+
+/// Columns of doubles that grow together.
+pub(super) struct Columns<const N: usize> {
+    columns: [Vec<f64>; N],
+}
+
+impl<const N: usize> Columns<N> {
+    pub(super) fn new() -> Self {
+        Self { columns: std::array::from_fn(|_| Vec::new()) }
+    }
+
+    /// Makes room for `len` entries and a vector's width beyond.
+    pub(super) fn reserve(&mut self, len: usize) {
+        if self.columns[0].len() < len + MAX_LANES {
+            for column in &mut self.columns {
+                column.resize(len + MAX_LANES, 0.0);
+            }
+        }
+    }
+
+    pub(super) fn get(&self) -> [&[f64]; N] {
+        self.columns.each_ref().map(Vec::as_slice)
+    }
+
+    pub(super) fn get_mut(&mut self) -> [&mut [f64]; N] {
+        self.columns.each_mut().map(Vec::as_mut_slice)
+    }
+
+    /// Repeats the last of `len` entries to the end of its vector, so that unused lanes hold a harmless ray.
+    pub(super) fn pad(&mut self, len: usize) {
+        if len > 0 {
+            for column in &mut self.columns {
+                let last = column[len - 1];
+                column[len..len.next_multiple_of(MAX_LANES)].fill(last);
+            }
+        }
+    }
+}
+
+/// What the rays of a frame see where they hit nothing.
+#[derive(Clone, Copy, PartialEq)]
+pub(super) enum Background {
+    /// The scene's own, for rays from the camera.
+    Scene,
+    /// Black, for mirrored rays.
+    Black,
+    /// One colour per ray, for refracted rays.
+    PerRay,
+}
+
+/// Where a frame's work stands.
+#[derive(Clone, Copy, PartialEq)]
+pub(super) enum Phase {
+    Trace,
+    AfterReflection,
+    AfterRefraction,
+}
+
+/// Hits of one primitive, consecutive in the hit columns from a multiple of the vector width.
+#[derive(Clone, Copy)]
+pub(super) struct Group {
+    pub(super) primitive: usize,
+    pub(super) start: usize,
+    pub(super) len: usize,
+}
+
+/// A batch of rays at one depth of the recursion.
+pub(super) struct Frame {
+    pub(super) phase: Phase,
+    pub(super) background: Background,
+    /// Number of rays.
+    pub(super) len: usize,
+    pub(super) origin: Columns<3>,
+    pub(super) direction: Columns<3>,
+    pub(super) behind: Columns<3>,
+    /// Where the colour of each ray goes in the hits of the frame above.
+    pub(super) parent: Vec<u32>,
+    /// Distance to the nearest hit, and its primitive or -1.
+    pub(super) nearest: Columns<2>,
+    pub(super) color: Columns<3>,
+
+    pub(super) groups: Vec<Group>,
+    /// The ray of each hit.
+    pub(super) slot: Vec<u32>,
+    pub(super) hit_point: Columns<3>,
+    pub(super) hit_normal: Columns<3>,
+    pub(super) hit_direction: Columns<3>,
+    pub(super) hit_color: Columns<3>,
+}
+
+impl Frame {
+    pub(super) fn new() -> Self {
+        Self {
+            phase: Phase::Trace,
+            background: Background::Scene,
+            len: 0,
+            origin: Columns::new(),
+            direction: Columns::new(),
+            behind: Columns::new(),
+            parent: Vec::new(),
+            nearest: Columns::new(),
+            color: Columns::new(),
+            groups: Vec::new(),
+            slot: Vec::new(),
+            hit_point: Columns::new(),
+            hit_normal: Columns::new(),
+            hit_direction: Columns::new(),
+            hit_color: Columns::new(),
+        }
+    }
+
+    /// Empties the frame for at most `capacity` rays.
+    pub(super) fn begin(&mut self, background: Background, capacity: usize) {
+        self.phase = Phase::Trace;
+        self.background = background;
+        self.len = 0;
+        self.parent.clear();
+        self.origin.reserve(capacity);
+        self.direction.reserve(capacity);
+        if background == Background::PerRay {
+            self.behind.reserve(capacity);
+        }
+    }
+
+    /// Sorts the rays that hit something by what they hit: fills `groups` and `slot`.
+    ///
+    /// Every group starts at a multiple of the vector width; the lanes up to there repeat the last ray of the
+    /// group before.
+    pub(super) fn group_hits(&mut self, primitives: usize, keys: &mut Vec<u64>) {
+        self.groups.clear();
+        self.slot.clear();
+        let hit = &self.nearest.get()[1][..self.len];
+        if primitives <= COUNTED {
+            let mut counts = [0u32; COUNTED + 1];
+            for &primitive in hit {
+                counts[(primitive + 1.0) as usize] += 1;
+            }
+            let mut next = [0u32; COUNTED + 1];
+            let mut start = 0;
+            for (primitive, &count) in counts[1..=primitives].iter().enumerate() {
+                if count > 0 {
+                    next[primitive + 1] = start as u32;
+                    self.groups.push(Group { primitive, start, len: count as usize });
+                    start = (start + count as usize).next_multiple_of(MAX_LANES);
+                }
+            }
+            self.slot.resize(start, u32::MAX);
+            for (ray, &primitive) in hit.iter().enumerate() {
+                if primitive >= 0.0 {
+                    let place = &mut next[(primitive + 1.0) as usize];
+                    self.slot[*place as usize] = ray as u32;
+                    *place += 1;
+                }
+            }
+        } else {
+            keys.clear();
+            keys.extend(
+                hit.iter().zip(0u64..).filter(|(p, _)| **p >= 0.0).map(|(&p, ray)| (p as u64) << 32 | ray),
+            );
+            keys.sort_unstable();
+            for run in keys.chunk_by(|a, b| a >> 32 == b >> 32) {
+                let start = self.slot.len();
+                self.slot.extend(run.iter().map(|&key| key as u32));
+                self.slot.resize(self.slot.len().next_multiple_of(MAX_LANES), u32::MAX);
+                self.groups.push(Group { primitive: (run[0] >> 32) as usize, start, len: run.len() });
+            }
+        }
+        for group in &self.groups {
+            let end = group.start + group.len;
+            let last = self.slot[end - 1];
+            self.slot[end..end.next_multiple_of(MAX_LANES)].fill(last);
+        }
+        let len = self.slot.len();
+        self.hit_point.reserve(len);
+        self.hit_normal.reserve(len);
+        self.hit_direction.reserve(len);
+        self.hit_color.reserve(len);
+    }
+}
+
+/// Up to this many primitives hits are grouped by counting, beyond by sorting.
+const COUNTED: usize = 256;

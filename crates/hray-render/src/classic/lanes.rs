@@ -1,0 +1,131 @@
+//! Vectors of points: the arithmetic of the thesis on as many points at once as the machine has lanes.
+//!
+//! Every operation is the IEEE operation of the scalar definition, lane by lane and in the same order, so the
+//! width of the vectors cannot change a result. Functions here are `inline(always)` because only code that is
+//! inlined into a dispatched function is compiled for the machine's instruction set.
+
+use fearless_simd::prelude::*;
+use hray_core::{DVec3, Rgb};
+
+/// As many doubles as the machine handles at once.
+pub(super) type Lanes<S> = <S as Simd>::f64s;
+/// One truth value per lane.
+pub(super) type Mask<S> = <S as Simd>::mask64s;
+
+/// The widest vector of any machine; buffers are padded to a multiple of it.
+pub(super) const MAX_LANES: usize = 8;
+
+/// Lengths below this count as zero (appendix A.1, `norm`).
+const ZERO_LENGTH: f64 = 1e-9;
+
+/// Points, directions or colours, one per lane.
+#[derive(Clone, Copy)]
+pub(super) struct Vec3<S: Simd> {
+    pub(super) x: Lanes<S>,
+    pub(super) y: Lanes<S>,
+    pub(super) z: Lanes<S>,
+}
+
+impl<S: Simd> Vec3<S> {
+    #[inline(always)]
+    pub(super) fn splat(simd: S, v: DVec3) -> Self {
+        Self {
+            x: Lanes::<S>::splat(simd, v.x),
+            y: Lanes::<S>::splat(simd, v.y),
+            z: Lanes::<S>::splat(simd, v.z),
+        }
+    }
+
+    #[inline(always)]
+    pub(super) fn splat_rgb(simd: S, c: Rgb) -> Self {
+        Self::splat(simd, DVec3::new(c.r, c.g, c.b))
+    }
+
+    /// The lanes that start at `start` of three columns.
+    #[inline(always)]
+    pub(super) fn load(simd: S, [x, y, z]: [&[f64]; 3], start: usize) -> Self {
+        let end = start + Lanes::<S>::LEN;
+        Self {
+            x: Lanes::<S>::from_slice(simd, &x[start..end]),
+            y: Lanes::<S>::from_slice(simd, &y[start..end]),
+            z: Lanes::<S>::from_slice(simd, &z[start..end]),
+        }
+    }
+
+    /// One lane from each of the given places of three columns.
+    #[inline(always)]
+    pub(super) fn gather(simd: S, [x, y, z]: [&[f64]; 3], places: &[u32]) -> Self {
+        Self {
+            x: Lanes::<S>::from_fn(simd, |i| x[places[i] as usize]),
+            y: Lanes::<S>::from_fn(simd, |i| y[places[i] as usize]),
+            z: Lanes::<S>::from_fn(simd, |i| z[places[i] as usize]),
+        }
+    }
+
+    #[inline(always)]
+    pub(super) fn store(self, [x, y, z]: [&mut [f64]; 3], start: usize) {
+        let end = start + Lanes::<S>::LEN;
+        self.x.store_slice(&mut x[start..end]);
+        self.y.store_slice(&mut y[start..end]);
+        self.z.store_slice(&mut z[start..end]);
+    }
+
+    #[inline(always)]
+    pub(super) fn add(self, o: Self) -> Self {
+        Self { x: self.x + o.x, y: self.y + o.y, z: self.z + o.z }
+    }
+
+    #[inline(always)]
+    pub(super) fn sub(self, o: Self) -> Self {
+        Self { x: self.x - o.x, y: self.y - o.y, z: self.z - o.z }
+    }
+
+    #[inline(always)]
+    pub(super) fn mul(self, o: Self) -> Self {
+        Self { x: self.x * o.x, y: self.y * o.y, z: self.z * o.z }
+    }
+
+    #[inline(always)]
+    pub(super) fn scale(self, f: Lanes<S>) -> Self {
+        Self { x: self.x * f, y: self.y * f, z: self.z * f }
+    }
+
+    #[inline(always)]
+    pub(super) fn dot(self, o: Self) -> Lanes<S> {
+        self.x * o.x + self.y * o.y + self.z * o.z
+    }
+
+    /// The direction of `self`, and its length: `norm` and `len` of appendix A.1. A vector shorter than 1e-9
+    /// has no direction and becomes zero.
+    #[inline(always)]
+    pub(super) fn norm(self, simd: S) -> (Self, Lanes<S>) {
+        let length = self.dot(self).sqrt();
+        let one = Lanes::<S>::splat(simd, 1.0);
+        let unit = self.scale(one / length);
+        (unit.zero_where(simd, length.simd_lt(ZERO_LENGTH)), length)
+    }
+
+    /// `self`, with zero in the lanes of `mask`.
+    #[inline(always)]
+    pub(super) fn zero_where(self, simd: S, mask: Mask<S>) -> Self {
+        let zero = Lanes::<S>::splat(simd, 0.0);
+        Self { x: mask.select(zero, self.x), y: mask.select(zero, self.y), z: mask.select(zero, self.z) }
+    }
+
+    /// Applies `f` to each component.
+    #[inline(always)]
+    pub(super) fn map(self, f: impl Fn(Lanes<S>) -> Lanes<S>) -> Self {
+        Self { x: f(self.x), y: f(self.y), z: f(self.z) }
+    }
+
+    /// `clip` of appendix A.1: into [0, 1] by comparisons, which makes 1 of NaN.
+    #[inline(always)]
+    pub(super) fn clip(self, simd: S) -> Self {
+        let zero = Lanes::<S>::splat(simd, 0.0);
+        let one = Lanes::<S>::splat(simd, 1.0);
+        self.map(|v| {
+            let v = v.simd_le(one).select(v, one);
+            v.simd_le(zero).select(zero, v)
+        })
+    }
+}

@@ -1,0 +1,209 @@
+//! The classic integrator: `colorPt` of the thesis, over batches of rays.
+//!
+//! A batch is intersected with all primitives, its hits are grouped by the primitive they lie on, so that all
+//! lanes of a vector share one material, and each group is lit. The rays that are mirrored form the batch of
+//! the next level, then those that are refracted; when a level is done its colours are added to the hits
+//! above. The levels are a list, not the call stack: the deepest recursion allowed costs memory, not a crash.
+
+mod frame;
+mod lanes;
+mod noise;
+mod power;
+mod shapes;
+mod steps;
+mod texture;
+
+use crate::{Control, RayCounts};
+use fearless_simd::{Level, dispatch};
+use frame::{Background, Frame, Phase};
+use hray_core::{Light, Material, NoiseTables, Rgb, Scene, WindowCamera};
+use lanes::MAX_LANES;
+use noise::Noise;
+use shapes::Prepared;
+
+/// The most rays a batch is made of: enough to fill vectors after grouping, few enough to stay in cache.
+const BATCH: usize = 512;
+/// What the frames of one thread may hold at the deepest level, in rays.
+const RAYS_IN_FLIGHT: usize = 1 << 19;
+
+/// A scene ready to be traced. Primitives and lights are in the order in which the thesis' lists hold them,
+/// the reverse of the source's.
+pub(crate) struct Integrator {
+    shapes: Vec<Prepared>,
+    materials: Vec<Material>,
+    lights: Vec<Light>,
+    background: Rgb,
+    camera: WindowCamera,
+    noise: Noise,
+    level: Level,
+}
+
+/// What one thread needs to trace batches, kept from one to the next.
+pub(crate) struct Scratch {
+    frames: Vec<Frame>,
+    keys: Vec<u64>,
+    rays: RayCounts,
+}
+
+impl Scratch {
+    pub(crate) fn new() -> Self {
+        Self { frames: Vec::new(), keys: Vec::new(), rays: RayCounts::default() }
+    }
+
+    /// The rays traced so far.
+    pub(crate) fn rays(&self) -> RayCounts {
+        self.rays
+    }
+}
+
+/// The render was stopped.
+pub(crate) struct Stopped;
+
+impl Integrator {
+    pub(crate) fn new(scene: &Scene, tables: &NoiseTables) -> Self {
+        Self {
+            shapes: scene.primitives.iter().rev().map(|p| Prepared::new(&p.shape)).collect(),
+            materials: scene.primitives.iter().rev().map(|p| p.material.clone()).collect(),
+            lights: scene.lights.iter().rev().copied().collect(),
+            background: scene.background,
+            camera: scene.camera,
+            noise: Noise::new(tables),
+            level: Level::new(),
+        }
+    }
+
+    /// Width and height of the window, in world units.
+    pub(crate) fn window(&self) -> [f64; 2] {
+        self.camera.window.map(|side| side as f64)
+    }
+
+    /// How many points [`Integrator::radiance`] should be given at a time.
+    pub(crate) fn batch(max_depth: i32) -> usize {
+        let levels = usize::try_from(max_depth).unwrap_or(0) + 1;
+        (RAYS_IN_FLIGHT / levels).clamp(8 * MAX_LANES, BATCH)
+    }
+
+    /// The colours seen through points of the window (in world space, z = 0).
+    pub(crate) fn radiance(
+        &self,
+        points: &[[f64; 2]],
+        max_depth: i32,
+        scratch: &mut Scratch,
+        control: &Control,
+        colors: &mut Vec<Rgb>,
+    ) -> Result<(), Stopped> {
+        let Ok(mut depth_left) = usize::try_from(max_depth) else {
+            colors.extend(points.iter().map(|_| Rgb::BLACK));
+            return Ok(());
+        };
+        if points.is_empty() {
+            return Ok(());
+        }
+        let Scratch { frames, keys, rays } = scratch;
+        if frames.is_empty() {
+            frames.push(Frame::new());
+        }
+        self.start(&mut frames[0], points);
+        rays.camera += points.len() as u64;
+        let mut top = 0;
+        loop {
+            if control.is_cancelled() {
+                return Err(Stopped);
+            }
+            if frames.len() == top + 1 {
+                frames.push(Frame::new());
+            }
+            let (upper, lower) = frames.split_at_mut(top + 1);
+            let (frame, next) = (&mut upper[top], &mut lower[0]);
+            if frame.phase == Phase::Trace {
+                dispatch!(self.level, simd => steps::intersect(simd, &self.shapes, frame));
+                frame.group_hits(self.shapes.len(), keys);
+                self.fill_background(frame);
+                rays.shadow += dispatch!(self.level, simd => steps::shade(simd, self, frame));
+                frame.phase = Phase::AfterReflection;
+                if depth_left > 0 {
+                    dispatch!(self.level, simd => steps::reflect(simd, &self.materials, frame, next));
+                    if next.len > 0 {
+                        rays.reflection += next.len as u64;
+                        (top, depth_left) = (top + 1, depth_left - 1);
+                        continue;
+                    }
+                }
+            }
+            if frame.phase == Phase::AfterReflection {
+                frame.phase = Phase::AfterRefraction;
+                if depth_left > 0 {
+                    dispatch!(self.level, simd => steps::refract(simd, self, frame, next));
+                    if next.len > 0 {
+                        rays.refraction += next.len as u64;
+                        (top, depth_left) = (top + 1, depth_left - 1);
+                        continue;
+                    }
+                }
+            }
+            dispatch!(self.level, simd => steps::finish(simd, frame));
+            if top == 0 {
+                break;
+            }
+            (top, depth_left) = (top - 1, depth_left + 1);
+            let (upper, lower) = frames.split_at_mut(top + 1);
+            self.give_back(&mut upper[top], &lower[0]);
+        }
+        let [r, g, b] = frames[0].color.get();
+        colors.extend((0..points.len()).map(|i| Rgb::new(r[i], g[i], b[i])));
+        Ok(())
+    }
+
+    /// Rays from the camera: `rayTracePt` of appendix A.2.
+    fn start(&self, frame: &mut Frame, points: &[[f64; 2]]) {
+        frame.begin(Background::Scene, points.len());
+        frame.len = points.len();
+        let [x, y, z] = frame.origin.get_mut();
+        for (i, &[px, py]) in points.iter().enumerate() {
+            (x[i], y[i], z[i]) = (px, py, 0.0);
+        }
+        frame.origin.pad(points.len());
+        dispatch!(self.level, simd => steps::away_from_eye(simd, self.camera.eye, frame));
+    }
+
+    /// Gives every ray what it sees where it hits nothing.
+    fn fill_background(&self, frame: &mut Frame) {
+        let len = frame.len;
+        frame.color.reserve(len);
+        match frame.background {
+            Background::PerRay => {
+                for (to, from) in frame.color.get_mut().into_iter().zip(frame.behind.get()) {
+                    to[..len].copy_from_slice(&from[..len]);
+                }
+            }
+            uniform => {
+                let color = if uniform == Background::Scene { self.background } else { Rgb::BLACK };
+                for (to, value) in frame.color.get_mut().into_iter().zip(color.to_array()) {
+                    to[..len].fill(value);
+                }
+            }
+        }
+    }
+
+    /// Adds the colours of a finished frame to the hits of the one above, each times the coefficient that
+    /// its ray was owed to.
+    fn give_back(&self, above: &mut Frame, done: &Frame) {
+        let coefficient = |material: &Material| {
+            if above.phase == Phase::AfterReflection { material.reflection } else { material.transmission }
+        };
+        let mut to = above.hit_color.get_mut();
+        let from = done.color.get();
+        let mut next = 0;
+        for group in &above.groups {
+            let factor = coefficient(&self.materials[group.primitive]);
+            let end = (group.start + group.len) as u32;
+            let count = done.parent[next..].iter().take_while(|&&place| place < end).count();
+            for (to, from) in to.iter_mut().zip(from) {
+                for (i, &place) in (next..).zip(&done.parent[next..next + count]) {
+                    to[place as usize] += from[i] * factor;
+                }
+            }
+            next += count;
+        }
+    }
+}
