@@ -55,11 +55,7 @@ impl<S: Simd> Vec3<S> {
     /// One lane from each of the given places of three columns.
     #[inline(always)]
     pub(super) fn gather(simd: S, [x, y, z]: [&[f64]; 3], places: &[u32]) -> Self {
-        Self {
-            x: Lanes::<S>::from_fn(simd, |i| x[places[i] as usize]),
-            y: Lanes::<S>::from_fn(simd, |i| y[places[i] as usize]),
-            z: Lanes::<S>::from_fn(simd, |i| z[places[i] as usize]),
-        }
+        Self { x: gather(simd, x, places), y: gather(simd, y, places), z: gather(simd, z, places) }
     }
 
     #[inline(always)]
@@ -112,20 +108,27 @@ impl<S: Simd> Vec3<S> {
         Self { x: mask.select(zero, self.x), y: mask.select(zero, self.y), z: mask.select(zero, self.z) }
     }
 
-    /// Applies `f` to each component.
-    #[inline(always)]
-    pub(super) fn map(self, f: impl Fn(Lanes<S>) -> Lanes<S>) -> Self {
-        Self { x: f(self.x), y: f(self.y), z: f(self.z) }
-    }
-
     /// `clip` of appendix A.1: into [0, 1] by comparisons, which makes 1 of NaN.
     #[inline(always)]
     pub(super) fn clip(self, simd: S) -> Self {
-        let zero = Lanes::<S>::splat(simd, 0.0);
-        let one = Lanes::<S>::splat(simd, 1.0);
-        self.map(|v| {
-            let v = v.simd_le(one).select(v, one);
-            v.simd_le(zero).select(zero, v)
-        })
+        Self { x: clip(simd, self.x), y: clip(simd, self.y), z: clip(simd, self.z) }
     }
+}
+
+#[inline(always)]
+fn clip<S: Simd>(simd: S, v: Lanes<S>) -> Lanes<S> {
+    let zero = Lanes::<S>::splat(simd, 0.0);
+    let one = Lanes::<S>::splat(simd, 1.0);
+    let v = v.simd_le(one).select(v, one);
+    v.simd_le(zero).select(zero, v)
+}
+
+/// One lane from each of the given places of a column.
+#[inline(always)]
+pub(super) fn gather<S: Simd>(simd: S, column: &[f64], places: &[u32]) -> Lanes<S> {
+    let mut lanes = [0.0; MAX_LANES];
+    for (lane, &place) in lanes.iter_mut().zip(&places[..Lanes::<S>::LEN]) {
+        *lane = column[place as usize];
+    }
+    Lanes::<S>::from_slice(simd, &lanes[..Lanes::<S>::LEN])
 }

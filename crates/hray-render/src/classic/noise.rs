@@ -5,7 +5,7 @@
 //! eight gradients are fetched once for all lanes. Where they do not, they are fetched lane by lane. The
 //! arithmetic is the same in both cases.
 
-use super::lanes::{Lanes, MAX_LANES, Vec3};
+use super::lanes::{Lanes, MAX_LANES, Mask, Vec3};
 use fearless_simd::prelude::*;
 use hray_core::NoiseTables;
 
@@ -45,6 +45,26 @@ fn lerp<S: Simd>(t: Lanes<S>, a: Lanes<S>, b: Lanes<S>) -> Lanes<S> {
     a + t * (b - a)
 }
 
+/// Whether the lanes may be scaled by up to `top` and still be taken apart by [`cell`].
+#[inline(always)]
+fn fits<S: Simd>(v: Lanes<S>, top: f64) -> Mask<S> {
+    let size = v.abs();
+    (size * top).simd_lt(EXACT_CELLS) & (size.simd_ge(TINY) | size.simd_eq(0.0))
+}
+
+/// The lattice cell of each coordinate, modulo 256.
+#[inline(always)]
+fn cell<S: Simd>(x: Lanes<S>) -> <Lanes<S> as SimdFloat<S>>::Bits {
+    ((x + 256.0).floor() + LOW_BITS).to_bits() & 255
+}
+
+/// The gradients at the corners of the lanes' cells.
+enum Corners {
+    /// All lanes lie in one cell.
+    One([u8; 8]),
+    Each([[u8; 8]; MAX_LANES]),
+}
+
 /// The remainder of `floor(t)` modulo 256 through a 64-bit integer, with the overflow of GHC's `floor`: out of
 /// range becomes -2^63, from which one is taken where the argument is smaller still.
 fn cell_of(t: f64) -> usize {
@@ -71,66 +91,84 @@ impl Noise {
     /// 111 (x first).
     #[inline(always)]
     fn corners(permutation: &[u8; 256], x: usize, y: usize, z: usize) -> [u8; 8] {
-        let at = |i: usize| usize::from(permutation[i & 255]);
-        let (i, j) = (at(x), at(x + 1));
-        let (b00, b10, b01, b11) = (at(i + y), at(j + y), at(i + y + 1), at(j + y + 1));
-        [b00 + z, b10 + z, b01 + z, b11 + z, b00 + z + 1, b10 + z + 1, b01 + z + 1, b11 + z + 1]
-            .map(|i| (i & 255) as u8)
+        let (i, j) = (usize::from(permutation[x & 255]), usize::from(permutation[(x + 1) & 255]));
+        let b00 = usize::from(permutation[(i + y) & 255]) + z;
+        let b10 = usize::from(permutation[(j + y) & 255]) + z;
+        let b01 = usize::from(permutation[(i + y + 1) & 255]) + z;
+        let b11 = usize::from(permutation[(j + y + 1) & 255]) + z;
+        // The low byte is the remainder modulo 256.
+        [
+            b00 as u8,
+            b10 as u8,
+            b01 as u8,
+            b11 as u8,
+            (b00 + 1) as u8,
+            (b10 + 1) as u8,
+            (b01 + 1) as u8,
+            (b11 + 1) as u8,
+        ]
     }
 
     /// Noise at points given in cells, `|coordinate| < 2^50`.
     #[inline(always)]
     fn noise_lanes<S: Simd>(&self, simd: S, table: usize, p: Vec3<S>) -> Lanes<S> {
-        let permutation = &self.permutations[table];
         // A cell is floor(x + 256) mod 256, but the fraction is x - floor(x): for a tiny negative x the first
         // is 0 and the second 1.
-        let r0 = p.map(|v| v - v.floor());
-        let cells = p.map(|v| (v + 256.0).floor() + LOW_BITS);
-        let r1 = r0.map(|v| v - 1.0);
-        let s = r0.map(|t| s_curve(simd, t));
-
-        let mask = 255u64;
-        let (cx, cy, cz) = (cells.x.to_bits() & mask, cells.y.to_bits() & mask, cells.z.to_bits() & mask);
+        let r0 = Vec3::<S> { x: p.x - p.x.floor(), y: p.y - p.y.floor(), z: p.z - p.z.floor() };
+        let r1 = Vec3::<S> { x: r0.x - 1.0, y: r0.y - 1.0, z: r0.z - 1.0 };
+        let s = Vec3::<S> { x: s_curve(simd, r0.x), y: s_curve(simd, r0.y), z: s_curve(simd, r0.z) };
+        let (cx, cy, cz) = (cell::<S>(p.x), cell::<S>(p.y), cell::<S>(p.z));
         let key = cx | (cy << 8) | (cz << 16);
+
+        let permutation = &self.permutations[table];
         let first = key[0];
-        let [gx, gy, gz] = &self.gradients;
-        let gradients: [Vec3<S>; 8] = if key.simd_eq(first).all_true() {
-            let place = |shift: u32| ((first >> shift) & 255) as usize;
-            Self::corners(permutation, place(0), place(8), place(16)).map(|g| {
-                let g = usize::from(g);
-                Vec3 {
-                    x: Lanes::<S>::splat(simd, gx[g]),
-                    y: Lanes::<S>::splat(simd, gy[g]),
-                    z: Lanes::<S>::splat(simd, gz[g]),
-                }
-            })
+        let corners = if key.simd_eq(first).all_true() {
+            let corners = Self::corners_of_key(permutation, first);
+            Corners::One(corners)
         } else {
             let mut corners = [[0u8; 8]; MAX_LANES];
-            for (lane, corner) in corners.iter_mut().enumerate().take(Lanes::<S>::LEN) {
-                let place = |shift: u32| ((key[lane] >> shift) & 255) as usize;
-                *corner = Self::corners(permutation, place(0), place(8), place(16));
+            for lane in 0..Lanes::<S>::LEN {
+                corners[lane] = Self::corners_of_key(permutation, key[lane]);
             }
-            std::array::from_fn(
-                #[inline(always)]
-                |c| Vec3 {
-                    x: Lanes::<S>::from_fn(simd, |lane| gx[usize::from(corners[lane][c])]),
-                    y: Lanes::<S>::from_fn(simd, |lane| gy[usize::from(corners[lane][c])]),
-                    z: Lanes::<S>::from_fn(simd, |lane| gz[usize::from(corners[lane][c])]),
-                },
-            )
+            Corners::Each(corners)
         };
+        let mut low = [Lanes::<S>::splat(simd, 0.0); 2];
+        for (half, (rz, low)) in [r0.z, r1.z].into_iter().zip(&mut low).enumerate() {
+            let c = 4 * half;
+            let at00 = self.corner(simd, &corners, c, Vec3 { x: r0.x, y: r0.y, z: rz });
+            let at10 = self.corner(simd, &corners, c + 1, Vec3 { x: r1.x, y: r0.y, z: rz });
+            let at01 = self.corner(simd, &corners, c + 2, Vec3 { x: r0.x, y: r1.y, z: rz });
+            let at11 = self.corner(simd, &corners, c + 3, Vec3 { x: r1.x, y: r1.y, z: rz });
+            *low = lerp::<S>(s.y, lerp::<S>(s.x, at00, at10), lerp::<S>(s.x, at01, at11));
+        }
+        lerp::<S>(s.z, low[0], low[1])
+    }
 
-        let at = |c: usize| {
-            let r = Vec3 {
-                x: if c & 1 == 0 { r0.x } else { r1.x },
-                y: if c & 2 == 0 { r0.y } else { r1.y },
-                z: if c & 4 == 0 { r0.z } else { r1.z },
-            };
-            r.dot(gradients[c])
-        };
-        let low = lerp::<S>(s.y, lerp::<S>(s.x, at(0), at(1)), lerp::<S>(s.x, at(2), at(3)));
-        let high = lerp::<S>(s.y, lerp::<S>(s.x, at(4), at(5)), lerp::<S>(s.x, at(6), at(7)));
-        lerp::<S>(s.z, low, high)
+    #[inline(always)]
+    fn corners_of_key(permutation: &[u8; 256], key: u64) -> [u8; 8] {
+        let place = [key & 255, (key >> 8) & 255, (key >> 16) & 255];
+        Self::corners(permutation, place[0] as usize, place[1] as usize, place[2] as usize)
+    }
+
+    /// What corner `c` contributes: the product of its gradient with the vector `r` from it to the point.
+    #[inline(always)]
+    fn corner<S: Simd>(&self, simd: S, corners: &Corners, c: usize, r: Vec3<S>) -> Lanes<S> {
+        let [gx, gy, gz] = &self.gradients;
+        match corners {
+            Corners::One(corners) => {
+                let g = usize::from(corners[c]);
+                r.x * gx[g] + r.y * gy[g] + r.z * gz[g]
+            }
+            Corners::Each(corners) => {
+                let mut gradient = [[0.0; MAX_LANES]; 3];
+                for lane in 0..Lanes::<S>::LEN {
+                    let g = usize::from(corners[lane][c]);
+                    (gradient[0][lane], gradient[1][lane], gradient[2][lane]) = (gx[g], gy[g], gz[g]);
+                }
+                let [x, y, z] = &gradient;
+                r.dot(Vec3::load(simd, [x, y, z], 0))
+            }
+        }
     }
 
     /// Noise at one point given in cells: the definition, for coordinates that the lanes cannot take.
@@ -165,26 +203,26 @@ impl Noise {
         octaves: u32,
         sum: Sum,
     ) -> Lanes<S> {
-        let cells = p.map(|v| v / grid);
+        let cells = Vec3::<S> { x: p.x / grid, y: p.y / grid, z: p.z / grid };
         let top = (1u64 << octaves.min(MAX_OCTAVES)) as f64;
-        let fits = |v: Lanes<S>| {
-            let size = v.abs();
-            (size * top).simd_lt(EXACT_CELLS) & (size.simd_ge(TINY) | size.simd_eq(0.0))
-        };
-        if octaves > MAX_OCTAVES || !(fits(cells.x) & fits(cells.y) & fits(cells.z)).all_true() {
-            return Lanes::<S>::from_fn(simd, |i| {
-                self.octaves_one(table, [p.x[i], p.y[i], p.z[i]], grid, octaves, sum)
-            });
+        let fit = fits::<S>(cells.x, top) & fits::<S>(cells.y, top) & fits::<S>(cells.z, top);
+        if octaves > MAX_OCTAVES || !fit.all_true() {
+            let mut total = [0.0; MAX_LANES];
+            for lane in 0..Lanes::<S>::LEN {
+                let p = [p.x[lane], p.y[lane], p.z[lane]];
+                total[lane] = self.octaves_one(table, p, grid, octaves, sum);
+            }
+            return Lanes::<S>::from_slice(simd, &total[..Lanes::<S>::LEN]);
         }
-        let value = |n: Lanes<S>| if sum == Sum::Absolute { n.abs() } else { n };
-        let mut total = value(self.noise_lanes(simd, table, cells));
-        let (mut scale, mut weight) = (1.0, 1.0);
-        for _ in 0..octaves {
+        let (mut total, mut scale, mut weight) = (Lanes::<S>::splat(simd, 0.0), 1.0, 1.0);
+        for octave in 0..=octaves {
+            // Dividing once and scaling by powers of two rounds as scaling first and dividing each time.
+            let scaled = Vec3::<S> { x: cells.x * scale, y: cells.y * scale, z: cells.z * scale };
+            let n = self.noise_lanes(simd, table, scaled);
+            let n = if sum == Sum::Absolute { n.abs() } else { n };
+            total = if octave == 0 { n } else { n * weight + total };
             scale *= 2.0;
             weight *= 0.5;
-            // Dividing once and scaling by powers of two rounds as scaling first and dividing each time.
-            let n = self.noise_lanes(simd, table, cells.map(|v| v * scale));
-            total = value(n) * weight + total;
         }
         total
     }

@@ -95,7 +95,8 @@ impl Prepared {
     pub(super) fn normal<S: Simd>(&self, simd: S, p: Vec3<S>) -> Vec3<S> {
         match *self {
             Self::Sphere { center, inverse_radius, .. } => {
-                p.sub(Vec3::splat(simd, center)).map(|v| v * inverse_radius).norm(simd).0
+                let inverse_radius = Lanes::<S>::splat(simd, inverse_radius);
+                p.sub(Vec3::splat(simd, center)).scale(inverse_radius).norm(simd).0
             }
             Self::Plane { unit_normal, .. } => Vec3::splat(simd, unit_normal),
         }

@@ -2,7 +2,7 @@
 
 use super::Integrator;
 use super::frame::{Background, Frame, Group};
-use super::lanes::{Lanes, Mask, Vec3};
+use super::lanes::{Lanes, Mask, Vec3, gather};
 use super::power::power;
 use super::shapes::{Prepared, Rays};
 use super::texture::color_at;
@@ -64,7 +64,7 @@ pub(super) fn shade<S: Simd>(simd: S, scene: &Integrator, frame: &mut Frame) -> 
             let origin = Vec3::gather(simd, frame.origin.get(), rays);
             let direction = Vec3::gather(simd, frame.direction.get(), rays);
             let distances = frame.nearest.get()[0];
-            let distance = Lanes::<S>::from_fn(simd, |lane| distances[rays[lane] as usize]);
+            let distance = gather(simd, distances, rays);
             let point = origin.add(direction.scale(distance));
             let normal = scene.shapes[group.primitive].normal(simd, point);
             point.store(frame.hit_point.get_mut(), i);
@@ -228,7 +228,7 @@ fn push_refracted(
 /// `refractDir` of appendix A.1: the direction zero where all light is reflected inside.
 #[inline(always)]
 fn refracted<S: Simd>(simd: S, incoming: Vec3<S>, normal: Vec3<S>, index: f64) -> Vec3<S> {
-    let cosine = normal.dot(incoming.map(|v| -v));
+    let cosine = normal.dot(Vec3 { x: -incoming.x, y: -incoming.y, z: -incoming.z });
     let leaving = cosine.simd_lt(0.0);
     let ratio = leaving.select(Lanes::<S>::splat(simd, index), Lanes::<S>::splat(simd, 1.0 / index));
     let v = ratio * ratio * (cosine * cosine - 1.0) + 1.0;
