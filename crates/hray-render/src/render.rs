@@ -6,7 +6,7 @@ use crate::{Control, RayCounts, Settings, Statistics};
 use hray_core::{NoiseTables, Rgb, Scene};
 use std::collections::BTreeMap;
 use std::fmt;
-use std::num::NonZeroUsize;
+use std::num::{NonZeroU32, NonZeroUsize};
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::mpsc::{Sender, channel};
 use std::sync::{Condvar, Mutex, PoisonError};
@@ -198,13 +198,13 @@ impl<'a> Worker<'a> {
         for pixel in first..last {
             // Both fit: they are coordinates of a pixel of the region.
             let (x, y) = (region.x() + (pixel % width) as u32, region.y() + (pixel / width) as u32);
+            if samples == NonZeroU32::MIN {
+                self.add(self.window_point(x, y, [0.0; 2]))?;
+                continue;
+            }
             let pixel_samples = PixelSamples::of(x, y);
             for sample in 0..samples.get() {
-                let offset = if samples.get() == 1 { [0.0; 2] } else { pixel_samples.offset(sample) };
-                self.points.push(self.window_point(x, y, offset));
-                if self.points.len() == self.batch {
-                    self.trace()?;
-                }
+                self.add(self.window_point(x, y, pixel_samples.offset(sample)))?;
             }
         }
         self.trace()?;
@@ -221,6 +221,11 @@ impl<'a> Worker<'a> {
         }
         self.job.control.add_pixels(last - first);
         Ok(&self.pixels)
+    }
+
+    fn add(&mut self, point: [f64; 2]) -> Result<(), Stopped> {
+        self.points.push(point);
+        if self.points.len() == self.batch { self.trace() } else { Ok(()) }
     }
 
     fn trace(&mut self) -> Result<(), Stopped> {

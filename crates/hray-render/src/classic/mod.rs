@@ -10,6 +10,7 @@ mod lanes;
 mod noise;
 mod power;
 mod shapes;
+mod sine;
 mod steps;
 mod texture;
 

@@ -1,11 +1,13 @@
 //! Perlin's gradient noise of 1985, several points at a time.
 //!
-//! Thesis §3.4, appendix A.3 `noise`; K. Perlin, "An Image Synthesizer", SIGGRAPH 1985. Neighbouring rays hit
-//! neighbouring points, and for all but the highest octaves those lie in one cell of the lattice: then the
-//! eight gradients are fetched once for all lanes. Where they do not, they are fetched lane by lane. The
-//! arithmetic is the same in both cases.
+//! Thesis §3.4, appendix A.3 `noise`; K. Perlin, "An Image Synthesizer", SIGGRAPH 1985. Space is cut into
+//! cells; noise at a point blends the gradients at the eight corners of its cell. Neighbouring rays hit
+//! neighbouring points, and for the lower octaves those lie in one cell, or in two or three: then the
+//! gradients of each are fetched once for all lanes. Where there are more, they are fetched lane by lane, two
+//! at a time. The arithmetic is the same in all cases.
 
 use super::lanes::{Lanes, MAX_LANES, Mask, Vec3};
+use fearless_simd::f64x8;
 use fearless_simd::prelude::*;
 use hray_core::NoiseTables;
 
@@ -20,10 +22,14 @@ const TINY: f64 = 1e-280;
 
 /// Noise tables, laid out for the kernel.
 pub(super) struct Noise {
-    permutations: [[u8; 256]; 3],
-    /// The x, y and z components of the gradients.
-    gradients: [[f64; 256]; 3],
+    /// Of each permutation P, the pairs (P(i), P(i + 1)) for i to 511, all modulo 256.
+    permutations: [[[u8; 2]; 512]; 3],
+    /// Gradients one after the other, four numbers each, the last of them 0, and all of them twice: so those
+    /// of neighbouring corners along z are neighbours, whatever the cell.
+    gradients: Box<[f64; GRADIENTS]>,
 }
+
+const GRADIENTS: usize = 512 * 4;
 
 /// How the octaves of a sum are taken.
 #[derive(Clone, Copy, PartialEq)]
@@ -34,79 +40,46 @@ pub(super) enum Sum {
     Absolute,
 }
 
-/// The smooth step 3t² - 2t³, as written in appendix A.3.
-#[inline(always)]
-fn s_curve<S: Simd>(simd: S, t: Lanes<S>) -> Lanes<S> {
-    t * t * (Lanes::<S>::splat(simd, 3.0) - t * 2.0)
+/// Where in their cells the lanes are: the vectors from the lowest and the highest corner, and the weights.
+#[derive(Clone, Copy)]
+struct Place<S: Simd> {
+    r0: Vec3<S>,
+    r1: Vec3<S>,
+    s: Vec3<S>,
 }
 
-#[inline(always)]
-fn lerp<S: Simd>(t: Lanes<S>, a: Lanes<S>, b: Lanes<S>) -> Lanes<S> {
-    a + t * (b - a)
-}
+/// The four edges of a cell along z, by the place of the gradient at their lower end; the upper end's is the
+/// next. In the order 00, 10, 01, 11 of x and y.
+type Edges = [u16; 4];
 
-/// Whether the lanes may be scaled by up to `top` and still be taken apart by [`cell`].
-#[inline(always)]
-fn fits<S: Simd>(v: Lanes<S>, top: f64) -> Mask<S> {
-    let size = v.abs();
-    (size * top).simd_lt(EXACT_CELLS) & (size.simd_ge(TINY) | size.simd_eq(0.0))
-}
-
-/// The lattice cell of each coordinate, modulo 256.
-#[inline(always)]
-fn cell<S: Simd>(x: Lanes<S>) -> <Lanes<S> as SimdFloat<S>>::Bits {
-    ((x + 256.0).floor() + LOW_BITS).to_bits() & 255
-}
-
-/// The gradients at the corners of the lanes' cells.
-enum Corners {
-    /// All lanes lie in one cell.
-    One([u8; 8]),
-    Each([[u8; 8]; MAX_LANES]),
-}
-
-/// The remainder of `floor(t)` modulo 256 through a 64-bit integer, with the overflow of GHC's `floor`: out of
-/// range becomes -2^63, from which one is taken where the argument is smaller still.
-fn cell_of(t: f64) -> usize {
-    let truncated = if t >= -9_223_372_036_854_775_808.0 && t < 9_223_372_036_854_775_808.0 {
-        t as i64
-    } else {
-        i64::MIN
-    };
-    let floor = if t < truncated as f64 { truncated.wrapping_sub(1) } else { truncated };
-    (floor & 255) as usize
+/// The cells of the lanes.
+enum Cells {
+    /// The same for all.
+    One(Edges),
+    Each([Edges; MAX_LANES]),
 }
 
 impl Noise {
     pub(super) fn new(tables: &NoiseTables) -> Self {
-        Self {
-            permutations: *tables.permutations(),
-            gradients: std::array::from_fn(|axis| {
-                std::array::from_fn(|index| tables.gradients()[index][axis])
-            }),
+        let mut gradients = Box::new([0.0; GRADIENTS]);
+        for (i, row) in gradients.chunks_exact_mut(4).enumerate() {
+            row[..3].copy_from_slice(&tables.gradients()[i & 255]);
         }
+        let pairs = |permutation: &[u8; 256]| {
+            std::array::from_fn(|i| [permutation[i & 255], permutation[(i + 1) & 255]])
+        };
+        Self { permutations: tables.permutations().each_ref().map(pairs), gradients }
     }
 
-    /// The gradient indices of the eight corners of a cell, in the order 000, 100, 010, 110, 001, 101, 011,
-    /// 111 (x first).
+    /// The edges of a cell, from the low bytes of `key`: x, y, z.
     #[inline(always)]
-    fn corners(permutation: &[u8; 256], x: usize, y: usize, z: usize) -> [u8; 8] {
-        let (i, j) = (usize::from(permutation[x & 255]), usize::from(permutation[(x + 1) & 255]));
-        let b00 = usize::from(permutation[(i + y) & 255]) + z;
-        let b10 = usize::from(permutation[(j + y) & 255]) + z;
-        let b01 = usize::from(permutation[(i + y + 1) & 255]) + z;
-        let b11 = usize::from(permutation[(j + y + 1) & 255]) + z;
-        // The low byte is the remainder modulo 256.
-        [
-            b00 as u8,
-            b10 as u8,
-            b01 as u8,
-            b11 as u8,
-            (b00 + 1) as u8,
-            (b10 + 1) as u8,
-            (b01 + 1) as u8,
-            (b11 + 1) as u8,
-        ]
+    fn edges(&self, table: usize, key: u64) -> Edges {
+        let pairs = &self.permutations[table];
+        let [x, y, z] = [key & 255, (key >> 8) & 255, (key >> 16) & 255].map(|i| i as usize);
+        let [i, j] = pairs[x];
+        let [b00, b01] = pairs[usize::from(i) + y];
+        let [b10, b11] = pairs[usize::from(j) + y];
+        [b00, b10, b01, b11].map(|b| u16::from(b) + z as u16)
     }
 
     /// Noise at points given in cells, `|coordinate| < 2^50`.
@@ -117,58 +90,112 @@ impl Noise {
         let r0 = Vec3::<S> { x: p.x - p.x.floor(), y: p.y - p.y.floor(), z: p.z - p.z.floor() };
         let r1 = Vec3::<S> { x: r0.x - 1.0, y: r0.y - 1.0, z: r0.z - 1.0 };
         let s = Vec3::<S> { x: s_curve(simd, r0.x), y: s_curve(simd, r0.y), z: s_curve(simd, r0.z) };
-        let (cx, cy, cz) = (cell::<S>(p.x), cell::<S>(p.y), cell::<S>(p.z));
-        let key = cx | (cy << 8) | (cz << 16);
+        let at = Place { r0, r1, s };
+        let key = cell::<S>(p.x) | (cell::<S>(p.y) << 8) | (cell::<S>(p.z) << 16);
 
-        let permutation = &self.permutations[table];
-        let first = key[0];
-        let corners = if key.simd_eq(first).all_true() {
-            let corners = Self::corners_of_key(permutation, first);
-            Corners::One(corners)
-        } else {
-            let mut corners = [[0u8; 8]; MAX_LANES];
+        // Lanes are neighbours, so the cells of the first and of the last are likely to be all there are.
+        let last = Lanes::<S>::LEN - 1;
+        let in_first = key.simd_eq(key[0]);
+        if in_first.all_true() {
+            return self.blend(simd, &self.one(table, key[0]), at);
+        }
+        let in_last = key.simd_eq(key[last]);
+        let left = !(in_first | in_last).to_bitmask() & ((1 << Lanes::<S>::LEN) - 1);
+        let between = (left.trailing_zeros() as usize).min(last);
+        let in_between = key.simd_eq(key[between]);
+        if (in_first | in_last | in_between).all_true() {
+            let first = self.blend(simd, &self.one(table, key[0]), at);
+            let outer = in_first.select(first, self.blend(simd, &self.one(table, key[last]), at));
+            if left == 0 {
+                return outer;
+            }
+            return in_between.select(self.blend(simd, &self.one(table, key[between]), at), outer);
+        }
+        let mut edges = [[0; 4]; MAX_LANES];
+        for lane in 0..Lanes::<S>::LEN {
+            edges[lane] = self.edges(table, key[lane]);
+        }
+        self.blend(simd, &Cells::Each(edges), at)
+    }
+
+    #[inline(always)]
+    fn one(&self, table: usize, key: u64) -> Cells {
+        Cells::One(self.edges(table, key))
+    }
+
+    /// Noise from the gradients at the corners of cells and the places in them.
+    #[inline(always)]
+    fn blend<S: Simd>(&self, simd: S, cells: &Cells, Place { r0, r1, s }: Place<S>) -> Lanes<S> {
+        let (low00, high00) = self.edge(simd, cells, 0, r0.x, r0.y, [r0.z, r1.z]);
+        let (low10, high10) = self.edge(simd, cells, 1, r1.x, r0.y, [r0.z, r1.z]);
+        let (low01, high01) = self.edge(simd, cells, 2, r0.x, r1.y, [r0.z, r1.z]);
+        let (low11, high11) = self.edge(simd, cells, 3, r1.x, r1.y, [r0.z, r1.z]);
+        let low = lerp::<S>(s.y, lerp::<S>(s.x, low00, low10), lerp::<S>(s.x, low01, low11));
+        let high = lerp::<S>(s.y, lerp::<S>(s.x, high00, high10), lerp::<S>(s.x, high01, high11));
+        lerp::<S>(s.z, low, high)
+    }
+
+    /// What the two corners of an edge contribute: the products of their gradients with the vectors from them
+    /// to the points.
+    #[inline(always)]
+    fn edge<S: Simd>(
+        &self,
+        simd: S,
+        cells: &Cells,
+        edge: usize,
+        x: Lanes<S>,
+        y: Lanes<S>,
+        [z0, z1]: [Lanes<S>; 2],
+    ) -> (Lanes<S>, Lanes<S>) {
+        match cells {
+            Cells::One(edges) => {
+                let g = self.pair(edges[edge]);
+                (x * g[0] + y * g[1] + z0 * g[2], x * g[4] + y * g[5] + z1 * g[6])
+            }
+            Cells::Each(edges) => {
+                let g = self.pairs(simd, edges, edge);
+                (x * g[0] + y * g[1] + z0 * g[2], x * g[3] + y * g[4] + z1 * g[5])
+            }
+        }
+    }
+
+    /// The gradients at both ends of an edge.
+    #[inline(always)]
+    fn pair(&self, edge: u16) -> &[f64] {
+        // An edge is the sum of two bytes, so the place is below 511.
+        let start = 4 * usize::from(edge & 511).min(510);
+        &self.gradients[start..start + 8]
+    }
+
+    /// Of the gradients at both ends of one edge of each lane's cell, the components.
+    #[inline(always)]
+    fn pairs<S: Simd>(&self, simd: S, edges: &[Edges; MAX_LANES], edge: usize) -> [Lanes<S>; 6] {
+        if Lanes::<S>::LEN != 8 {
+            let mut g = [[0.0; MAX_LANES]; 6];
             for lane in 0..Lanes::<S>::LEN {
-                corners[lane] = Self::corners_of_key(permutation, key[lane]);
+                let pair = self.pair(edges[lane][edge]);
+                (g[0][lane], g[1][lane], g[2][lane]) = (pair[0], pair[1], pair[2]);
+                (g[3][lane], g[4][lane], g[5][lane]) = (pair[4], pair[5], pair[6]);
             }
-            Corners::Each(corners)
+            let lanes = |i: usize| Lanes::<S>::from_slice(simd, &g[i][..Lanes::<S>::LEN]);
+            return [lanes(0), lanes(1), lanes(2), lanes(3), lanes(4), lanes(5)];
+        }
+        // Eight rows of eight numbers, transposed by interleaving three times.
+        let row = |lane: usize| f64x8::from_slice(simd, self.pair(edges[lane][edge]));
+        let (a0, a1) = (row(0), row(4));
+        let (b0, b1) = (row(1), row(5));
+        let (c0, c1) = (row(2), row(6));
+        let (d0, d1) = (row(3), row(7));
+        let half = |low: bool| {
+            let zip = |v: f64x8<S>, w: f64x8<S>| if low { v.zip_low(w) } else { v.zip_high(w) };
+            let (ac, bd) = ((zip(a0, a1), zip(c0, c1)), (zip(b0, b1), zip(d0, d1)));
+            let (xy0, xy1) = (ac.0.zip_low(ac.1), bd.0.zip_low(bd.1));
+            let (zw0, zw1) = (ac.0.zip_high(ac.1), bd.0.zip_high(bd.1));
+            [xy0.zip_low(xy1), xy0.zip_high(xy1), zw0.zip_low(zw1)]
         };
-        let mut low = [Lanes::<S>::splat(simd, 0.0); 2];
-        for (half, (rz, low)) in [r0.z, r1.z].into_iter().zip(&mut low).enumerate() {
-            let c = 4 * half;
-            let at00 = self.corner(simd, &corners, c, Vec3 { x: r0.x, y: r0.y, z: rz });
-            let at10 = self.corner(simd, &corners, c + 1, Vec3 { x: r1.x, y: r0.y, z: rz });
-            let at01 = self.corner(simd, &corners, c + 2, Vec3 { x: r0.x, y: r1.y, z: rz });
-            let at11 = self.corner(simd, &corners, c + 3, Vec3 { x: r1.x, y: r1.y, z: rz });
-            *low = lerp::<S>(s.y, lerp::<S>(s.x, at00, at10), lerp::<S>(s.x, at01, at11));
-        }
-        lerp::<S>(s.z, low[0], low[1])
-    }
-
-    #[inline(always)]
-    fn corners_of_key(permutation: &[u8; 256], key: u64) -> [u8; 8] {
-        let place = [key & 255, (key >> 8) & 255, (key >> 16) & 255];
-        Self::corners(permutation, place[0] as usize, place[1] as usize, place[2] as usize)
-    }
-
-    /// What corner `c` contributes: the product of its gradient with the vector `r` from it to the point.
-    #[inline(always)]
-    fn corner<S: Simd>(&self, simd: S, corners: &Corners, c: usize, r: Vec3<S>) -> Lanes<S> {
-        let [gx, gy, gz] = &self.gradients;
-        match corners {
-            Corners::One(corners) => {
-                let g = usize::from(corners[c]);
-                r.x * gx[g] + r.y * gy[g] + r.z * gz[g]
-            }
-            Corners::Each(corners) => {
-                let mut gradient = [[0.0; MAX_LANES]; 3];
-                for lane in 0..Lanes::<S>::LEN {
-                    let g = usize::from(corners[lane][c]);
-                    (gradient[0][lane], gradient[1][lane], gradient[2][lane]) = (gx[g], gy[g], gz[g]);
-                }
-                let [x, y, z] = &gradient;
-                r.dot(Vec3::load(simd, [x, y, z], 0))
-            }
-        }
+        let ([x0, y0, z0], [x1, y1, z1]) = (half(true), half(false));
+        let lanes = |v: f64x8<S>| Lanes::<S>::from_slice(simd, &v.as_slice()[..Lanes::<S>::LEN]);
+        [lanes(x0), lanes(y0), lanes(z0), lanes(x1), lanes(y1), lanes(z1)]
     }
 
     /// Noise at one point given in cells: the definition, for coordinates that the lanes cannot take.
@@ -178,16 +205,16 @@ impl Noise {
         let [x0, y0, z0] = [x, y, z].map(|v| v - v.floor());
         let [sx, sy, sz] = [x0, y0, z0].map(curve);
         let [cx, cy, cz] = [x, y, z].map(|v| cell_of(v + 256.0));
-        let corners = Self::corners(&self.permutations[table], cx, cy, cz);
-        let at = |c: usize| {
-            let g = usize::from(corners[c]);
-            let rx = if c & 1 == 0 { x0 } else { x0 - 1.0 };
-            let ry = if c & 2 == 0 { y0 } else { y0 - 1.0 };
-            let rz = if c & 4 == 0 { z0 } else { z0 - 1.0 };
-            rx * self.gradients[0][g] + ry * self.gradients[1][g] + rz * self.gradients[2][g]
+        let edges = self.edges(table, cx | cy << 8 | cz << 16);
+        let at = |edge: usize, rz: f64, g: &[f64]| {
+            let rx = if edge & 1 == 0 { x0 } else { x0 - 1.0 };
+            let ry = if edge & 2 == 0 { y0 } else { y0 - 1.0 };
+            rx * g[0] + ry * g[1] + rz * g[2]
         };
-        let low = mix(sy, mix(sx, at(0), at(1)), mix(sx, at(2), at(3)));
-        let high = mix(sy, mix(sx, at(4), at(5)), mix(sx, at(6), at(7)));
+        let low = |edge: usize| at(edge, z0, &self.pair(edges[edge])[..4]);
+        let high = |edge: usize| at(edge, z0 - 1.0, &self.pair(edges[edge])[4..]);
+        let low = mix(sy, mix(sx, low(0), low(1)), mix(sx, low(2), low(3)));
+        let high = mix(sy, mix(sx, high(0), high(1)), mix(sx, high(2), high(3)));
         mix(sz, low, high)
     }
 
@@ -242,4 +269,40 @@ impl Noise {
         }
         total
     }
+}
+
+/// The smooth step 3t² - 2t³, as written in appendix A.3.
+#[inline(always)]
+fn s_curve<S: Simd>(simd: S, t: Lanes<S>) -> Lanes<S> {
+    t * t * (Lanes::<S>::splat(simd, 3.0) - t * 2.0)
+}
+
+#[inline(always)]
+fn lerp<S: Simd>(t: Lanes<S>, a: Lanes<S>, b: Lanes<S>) -> Lanes<S> {
+    a + t * (b - a)
+}
+
+/// Whether the lanes may be scaled by up to `top` and still be taken apart by [`cell`].
+#[inline(always)]
+fn fits<S: Simd>(v: Lanes<S>, top: f64) -> Mask<S> {
+    let size = v.abs();
+    (size * top).simd_lt(EXACT_CELLS) & (size.simd_ge(TINY) | size.simd_eq(0.0))
+}
+
+/// The cell of each coordinate, modulo 256.
+#[inline(always)]
+fn cell<S: Simd>(x: Lanes<S>) -> S::u64s {
+    ((x + 256.0).floor() + LOW_BITS).bitcast::<S::u64s>() & 255
+}
+
+/// The remainder of `floor(t)` modulo 256 through a 64-bit integer, with the overflow of GHC's `floor`: out of
+/// range becomes -2^63, from which one is taken where the argument is smaller still.
+fn cell_of(t: f64) -> u64 {
+    let truncated = if t >= -9_223_372_036_854_775_808.0 && t < 9_223_372_036_854_775_808.0 {
+        t as i64
+    } else {
+        i64::MIN
+    };
+    let floor = if t < truncated as f64 { truncated.wrapping_sub(1) } else { truncated };
+    (floor & 255) as u64
 }

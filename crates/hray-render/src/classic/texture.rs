@@ -1,7 +1,8 @@
 //! The colour of a surface, several points at a time: `colorAt`, and the textures of appendix A.3.
 
-use super::lanes::{Lanes, MAX_LANES, Vec3};
+use super::lanes::{Lanes, Vec3};
 use super::noise::{Noise, Sum};
+use super::sine::sine;
 use fearless_simd::prelude::*;
 use hray_core::{DVec3, NoiseTexture, Rgb, Texture};
 
@@ -88,14 +89,4 @@ fn wood<S: Simd>(simd: S, base: Rgb, rings: f64, power: f64, p: Vec3<S>, turbule
         y: light.select(lightened.y, base.y),
         z: light.select(lightened.z, base.z),
     }
-}
-
-/// The sine of each lane.
-#[inline(always)]
-fn sine<S: Simd>(simd: S, x: Lanes<S>) -> Lanes<S> {
-    let mut lanes = [0.0; MAX_LANES];
-    for lane in 0..Lanes::<S>::LEN {
-        lanes[lane] = libm::sin(x[lane]);
-    }
-    Lanes::<S>::from_slice(simd, &lanes[..Lanes::<S>::LEN])
 }

@@ -1,0 +1,185 @@
+//! The sine of marble and wood, several arguments at a time, in the bits of [`libm::sin`].
+//!
+//! As with [`power`](super::power), the lanes follow the algorithm of `libm` operation by operation: FreeBSD's
+//! `s_sin.c`, `e_rem_pio2.c`, `k_sin.c` and `k_cos.c` (Sun Microsystems, 1993). The argument is reduced by the
+//! nearest multiple of pi/2, as two doubles, and a polynomial of sine or cosine taken of the rest. Arguments
+//! that need more than one round of reduction, and those so close to the seam between two multiples that
+//! `libm` decides by a table, are left to it.
+
+use super::lanes::{Lanes, MAX_LANES, Mask};
+use fearless_simd::prelude::*;
+
+/// Larger arguments need a longer pi.
+const LARGEST: f64 = 1e6;
+/// Adding and subtracting it rounds to a whole number.
+const TO_WHOLE: f64 = (3u64 << 51) as f64;
+const INV_PIO2: f64 = 6.366_197_723_675_813_824_33e-1;
+/// pi/2 as its first 33 bits and the rest.
+const PIO2_1: f64 = 1.570_796_326_734_125_614_17;
+const PIO2_1T: f64 = 6.077_100_506_506_192_249_32e-11;
+/// The high words of pi/4, which still needs no reduction, and of the seams 3, 5, 7 and 9 pi/4.
+const QUARTER_PI: u64 = 0x3FE9_21FB;
+const SEAMS: [u64; 4] = [0x4002_D97C, 0x400F_6A7A, 0x4015_FDBC, 0x401C_463B];
+/// Coefficients of the sine in odd powers, from the third.
+const S: [f64; 6] = [
+    -1.666_666_666_666_663_243_48e-1,
+    8.333_333_333_322_489_461_24e-3,
+    -1.984_126_982_985_794_931_34e-4,
+    2.755_731_370_707_006_767_89e-6,
+    -2.505_076_025_340_686_341_95e-8,
+    1.589_690_995_211_550_102_21e-10,
+];
+/// Coefficients of the cosine in even powers, from the fourth.
+const C: [f64; 6] = [
+    4.166_666_666_666_660_190_37e-2,
+    -1.388_888_888_887_410_957_49e-3,
+    2.480_158_728_947_672_941_78e-5,
+    -2.755_731_435_139_066_330_35e-7,
+    2.087_572_321_298_174_827_90e-9,
+    -1.135_964_755_778_819_482_65e-11,
+];
+
+/// The sine of each lane, in radians.
+#[inline(always)]
+pub(super) fn sine<V: Simd>(simd: V, x: Lanes<V>) -> Lanes<V> {
+    let size = x.abs();
+    let high = size.bitcast::<V::u64s>() >> 32;
+    let seam =
+        high.simd_eq(SEAMS[0]) | high.simd_eq(SEAMS[1]) | high.simd_eq(SEAMS[2]) | high.simd_eq(SEAMS[3]);
+    let ordinary: Mask<V> = size.simd_lt(LARGEST) & !seam;
+    if ordinary.all_true() {
+        let (result, settled) = ordinary_sine(simd, x, high);
+        if settled.all_true() {
+            return result;
+        }
+    }
+    let mut result = [0.0; MAX_LANES];
+    for (result, &x) in result.iter_mut().zip(x.as_slice()) {
+        *result = libm::sin(x);
+    }
+    Lanes::<V>::from_slice(simd, &result[..Lanes::<V>::LEN])
+}
+
+/// The sine, and the lanes in which one round of reduction is enough for it.
+#[inline(always)]
+fn ordinary_sine<V: Simd>(simd: V, x: Lanes<V>, high: V::u64s) -> (Lanes<V>, Mask<V>) {
+    let whole = x * INV_PIO2 + TO_WHOLE;
+    let quadrant = whole.bitcast::<V::u64s>() & 3;
+    let n = whole - TO_WHOLE;
+    let r = x - n * PIO2_1;
+    let w = n * PIO2_1T;
+    let y0 = r - w;
+    let y1 = (r - y0) - w;
+    // Where more than 16 bits cancel, the rest of pi/2 is too short.
+    let rest = (y0.abs().bitcast::<V::u64s>() >> 52) + 16;
+    let direct: Mask<V> = high.simd_le(QUARTER_PI);
+    let settled = direct | (high >> 20).simd_le(rest);
+
+    let odd: Mask<V> = (quadrant & 1).simd_eq(1);
+    let reduced = odd.select(k_cos(simd, y0, y1), k_sin(y0, y1));
+    let negative: Mask<V> = quadrant.simd_ge(2);
+    let reduced = negative.select(-reduced, reduced);
+    let tiny = x.abs().simd_lt(1.0 / 67_108_864.0);
+    let small = tiny.select(x, k_sin_alone::<V>(x));
+    (direct.select(small, reduced), settled)
+}
+
+/// The sine of x + y in [-pi/4, pi/4], where y is the tail of x.
+#[inline(always)]
+fn k_sin<L: SimdFloat<V, Element = f64>, V: Simd>(x: L, y: L) -> L {
+    let z = x * x;
+    let v = z * x;
+    let r = sine_tail(z);
+    x - ((z * (y * 0.5 - v * r) - y) - v * S[0])
+}
+
+/// The sine of x in [-pi/4, pi/4].
+#[inline(always)]
+fn k_sin_alone<V: Simd>(x: Lanes<V>) -> Lanes<V> {
+    let z = x * x;
+    let v = z * x;
+    x + v * (z * sine_tail(z) + S[0])
+}
+
+#[inline(always)]
+fn sine_tail<L: SimdFloat<V, Element = f64>, V: Simd>(z: L) -> L {
+    let w = z * z;
+    z * (z * S[3] + S[2]) + S[1] + z * w * (z * S[5] + S[4])
+}
+
+/// The cosine of x + y in [-pi/4, pi/4], where y is the tail of x.
+#[inline(always)]
+fn k_cos<V: Simd>(simd: V, x: Lanes<V>, y: Lanes<V>) -> Lanes<V> {
+    let one = Lanes::<V>::splat(simd, 1.0);
+    let z = x * x;
+    let w = z * z;
+    let r = z * (z * (z * C[2] + C[1]) + C[0]) + w * w * (z * (z * C[5] + C[4]) + C[3]);
+    let half = z * 0.5;
+    let w = one - half;
+    w + (((one - w) - half) + (z * r - x * y))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use fearless_simd::{Level, dispatch};
+    use proptest::prelude::*;
+
+    #[inline(always)]
+    fn sine_of_all<V: Simd>(simd: V, x: &[f64; MAX_LANES]) -> [f64; MAX_LANES] {
+        let mut result = [0.0; MAX_LANES];
+        for (from, to) in x.chunks(Lanes::<V>::LEN).zip(result.chunks_mut(Lanes::<V>::LEN)) {
+            sine(simd, Lanes::<V>::from_slice(simd, from)).store_slice(to);
+        }
+        result
+    }
+
+    fn check(x: [f64; MAX_LANES]) {
+        for level in [Level::new(), Level::baseline()] {
+            let result = dispatch!(level, simd => sine_of_all(simd, &x));
+            for (x, result) in x.iter().zip(result) {
+                let expected = libm::sin(*x);
+                assert!(
+                    result.to_bits() == expected.to_bits() || (result.is_nan() && expected.is_nan()),
+                    "sin {x:e}: {result:e} instead of {expected:e}"
+                );
+            }
+        }
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(20_000))]
+
+        /// A few turns, where the reduction has a branch for each multiple of pi/2.
+        #[test]
+        fn as_libm_in_the_first_turns(x in proptest::array::uniform8(-12.0..12.0f64)) {
+            check(x);
+        }
+
+        /// The arguments of marble and wood.
+        #[test]
+        fn as_libm_on_moderate_numbers(x in proptest::array::uniform8(-2e3..2e3f64)) {
+            check(x);
+        }
+
+        /// Anything at all.
+        #[test]
+        fn as_libm_on_all_bits(x in proptest::array::uniform8(any::<u64>().prop_map(f64::from_bits))) {
+            check(x);
+        }
+
+        /// Close to multiples of pi/4, where the reduction cancels or changes its mind.
+        #[test]
+        fn as_libm_at_the_seams(k in -40i32..40, ulps in proptest::array::uniform8(-1i64 << 34..1i64 << 34)) {
+            let near = f64::from(k) * std::f64::consts::FRAC_PI_4;
+            check(ulps.map(|d| f64::from_bits(near.to_bits().wrapping_add_signed(d))));
+        }
+    }
+
+    #[test]
+    fn as_libm_at_special_numbers() {
+        check([0.0, -0.0, f64::NAN, f64::INFINITY, 1e-9, -1e-300, 5e-324, 1e22]);
+        check([1e6, -1e6, 999_999.9, 0.785_398_163_397_448_3, -0.785_398_163_397_448_2, 0.7853, 1e5, 3e-8]);
+        check([0.0, -0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0]);
+    }
+}
