@@ -235,9 +235,9 @@ impl Noise {
         let fit = fits::<S>(cells.x, top) & fits::<S>(cells.y, top) & fits::<S>(cells.z, top);
         if octaves > MAX_OCTAVES || !fit.all_true() {
             let mut total = [0.0; MAX_LANES];
-            for lane in 0..Lanes::<S>::LEN {
+            for (lane, total) in total.iter_mut().enumerate().take(Lanes::<S>::LEN) {
                 let p = [p.x[lane], p.y[lane], p.z[lane]];
-                total[lane] = self.octaves_one(table, p, grid, octaves, sum);
+                *total = self.octaves_one(table, p, grid, octaves, sum);
             }
             return Lanes::<S>::from_slice(simd, &total[..Lanes::<S>::LEN]);
         }
@@ -298,11 +298,8 @@ fn cell<S: Simd>(x: Lanes<S>) -> S::u64s {
 /// The remainder of `floor(t)` modulo 256 through a 64-bit integer, with the overflow of GHC's `floor`: out of
 /// range becomes -2^63, from which one is taken where the argument is smaller still.
 fn cell_of(t: f64) -> u64 {
-    let truncated = if t >= -9_223_372_036_854_775_808.0 && t < 9_223_372_036_854_775_808.0 {
-        t as i64
-    } else {
-        i64::MIN
-    };
+    const LIMIT: f64 = (1u64 << 63) as f64;
+    let truncated = if (-LIMIT..LIMIT).contains(&t) { t as i64 } else { i64::MIN };
     let floor = if t < truncated as f64 { truncated.wrapping_sub(1) } else { truncated };
     (floor & 255) as u64
 }
