@@ -1,1 +1,45 @@
-//! placeholder
+//! Everything that touches a file: scenes and noise tables in, pictures out.
+//!
+//! Reading is bounded: [`read_source`] and [`read_noise_tables`] stop at a stated size whatever the file, the
+//! pipe or the device behind it goes on to deliver.
+//!
+//! Writing is split so that it can keep up with a parallel renderer. [`PictureFormat::encode`] is a pure
+//! function from a run of pixels to bytes and is called on the threads that rendered them; a
+//! [`PictureWriter`] takes the encoded runs in order on one thread and streams them out. The formats, and what
+//! each keeps of a colour:
+//!
+//! | format | extensions | of a component | memory |
+//! |---|---|---|---|
+//! | P3 (`ppm-ascii`) | by request | round(255 c), unbounded, as in 2005 | streamed |
+//! | P6 (`ppm`) | `ppm`, `pnm` | 8 bits | streamed |
+//! | PNG | `png` | 8 bits | streamed |
+//! | TGA | `tga` | 8 bits | streamed |
+//! | farbfeld | `ff` | 16 bits | streamed |
+//! | Radiance HDR | `hdr` | 8 bits and a shared exponent | streamed |
+//! | OpenEXR | `exr` | f32 | streamed |
+//! | BMP, QOI, TIFF, lossless WebP | `bmp`, `qoi`, `tif`, `tiff`, `webp` | 8 bits | the picture, at 8 bits |
+//! | JPEG | `jpg`, `jpeg` | 8 bits, lossy (quality 95) | the picture, at 8 bits |
+//!
+//! Invariant: a file appears whole or not at all. It is written under a temporary name beside its place and
+//! renamed when the last byte is in; until then an older file of that name is untouched, and a
+//! [`PictureWriter`] that is dropped takes its temporary file with it. (A crash of the whole machine is not
+//! guarded against: nothing waits for the disk.)
+
+mod destination;
+mod error;
+mod format;
+mod noise_tables;
+mod output;
+mod picture_writer;
+mod quoted;
+mod same_file;
+mod source;
+
+pub use destination::Destination;
+pub use error::{InputError, OutputError};
+pub use format::{PictureFormat, UnknownFormat};
+pub use noise_tables::{MAX_NOISE_TABLES_BYTES, TablesError, parse_noise_tables, read_noise_tables};
+pub use picture_writer::PictureWriter;
+pub use quoted::Quoted;
+pub use same_file::same_file;
+pub use source::{Input, MAX_SOURCE_BYTES, read_source, read_source_from};

@@ -1,1 +1,4 @@
-//! placeholder
+//! The scene language of hray.
+pub mod decode;
+pub mod diagnostic;
+pub mod classic;

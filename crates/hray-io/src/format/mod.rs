@@ -1,0 +1,310 @@
+//! The picture formats: their names, their limits, and what becomes of a colour in each.
+
+mod exr;
+mod header;
+mod ppm_text;
+mod quantize;
+mod rgbe;
+
+pub(crate) use exr::Scanlines;
+
+use crate::{OutputError, Quoted};
+use hray_core::Rgb;
+use std::fmt;
+use std::path::{Path, PathBuf};
+
+/// A picture format that can be written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum PictureFormat {
+    /// P3, portable pixmap as text, in the form of the program of 2005: components neither clipped nor
+    /// broken into lines.
+    PpmAscii,
+    /// P6, portable pixmap.
+    Ppm,
+    /// Portable network graphics, the default where nothing is said.
+    Png,
+    /// Windows bitmap.
+    Bmp,
+    /// Tagged image file format, uncompressed.
+    Tiff,
+    /// Truevision TGA, uncompressed.
+    Tga,
+    /// The "quite OK image" format.
+    Qoi,
+    /// JPEG: lossy, for looking at, not for comparing.
+    Jpeg,
+    /// WebP, lossless.
+    WebP,
+    /// Radiance: eight bits a component under a shared exponent; keeps what is brighter than 1.
+    Hdr,
+    /// OpenEXR: single precision, uncompressed; keeps every colour as it was computed.
+    Exr,
+    /// farbfeld: sixteen bits a component.
+    Farbfeld,
+}
+
+impl PictureFormat {
+    /// All of them.
+    pub const ALL: [Self; 12] = [
+        Self::Png,
+        Self::Ppm,
+        Self::PpmAscii,
+        Self::Bmp,
+        Self::Tiff,
+        Self::Tga,
+        Self::Qoi,
+        Self::Jpeg,
+        Self::WebP,
+        Self::Hdr,
+        Self::Exr,
+        Self::Farbfeld,
+    ];
+
+    /// The name by which the format is asked for.
+    #[must_use]
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::PpmAscii => "ppm-ascii",
+            Self::Ppm => "ppm",
+            Self::Png => "png",
+            Self::Bmp => "bmp",
+            Self::Tiff => "tiff",
+            Self::Tga => "tga",
+            Self::Qoi => "qoi",
+            Self::Jpeg => "jpeg",
+            Self::WebP => "webp",
+            Self::Hdr => "hdr",
+            Self::Exr => "exr",
+            Self::Farbfeld => "farbfeld",
+        }
+    }
+
+    /// The format in a few words.
+    #[must_use]
+    pub const fn description(self) -> &'static str {
+        match self {
+            Self::PpmAscii => "portable pixmap as text (P3), as in 2005",
+            Self::Ppm => "portable pixmap (P6)",
+            Self::Png => "portable network graphics",
+            Self::Bmp => "Windows bitmap",
+            Self::Tiff => "TIFF, uncompressed",
+            Self::Tga => "Truevision TGA",
+            Self::Qoi => "quite OK image",
+            Self::Jpeg => "JPEG (lossy)",
+            Self::WebP => "WebP, lossless",
+            Self::Hdr => "Radiance, for colours beyond 1",
+            Self::Exr => "OpenEXR, 32-bit floating point, unclipped",
+            Self::Farbfeld => "farbfeld, 16 bits a component",
+        }
+    }
+
+    /// The file extensions that mean this format, in lower case. None for the text form of PPM, which
+    /// shares its extension with the binary one and has to be asked for.
+    #[must_use]
+    pub const fn extensions(self) -> &'static [&'static str] {
+        match self {
+            Self::PpmAscii => &[],
+            Self::Ppm => &["ppm", "pnm"],
+            Self::Png => &["png"],
+            Self::Bmp => &["bmp"],
+            Self::Tiff => &["tiff", "tif"],
+            Self::Tga => &["tga"],
+            Self::Qoi => &["qoi"],
+            Self::Jpeg => &["jpg", "jpeg"],
+            Self::WebP => &["webp"],
+            Self::Hdr => &["hdr"],
+            Self::Exr => &["exr"],
+            Self::Farbfeld => &["ff"],
+        }
+    }
+
+    /// The format with that name; upper and lower case are the same.
+    #[must_use]
+    pub fn from_name(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|format| format.name().eq_ignore_ascii_case(name))
+    }
+
+    /// The format that the extension of a file's name asks for; upper and lower case are the same.
+    ///
+    /// # Errors
+    /// [`UnknownFormat`] where there is no extension or no format with it.
+    pub fn from_path(path: &Path) -> Result<Self, UnknownFormat> {
+        path.extension()
+            .and_then(|extension| extension.to_str())
+            .and_then(Self::from_extension)
+            .ok_or_else(|| UnknownFormat { path: path.to_owned() })
+    }
+
+    fn from_extension(extension: &str) -> Option<Self> {
+        Self::ALL
+            .into_iter()
+            .find(|format| format.extensions().iter().any(|known| known.eq_ignore_ascii_case(extension)))
+    }
+
+    /// Whether the format is written as it is rendered; the others need the whole picture in memory first,
+    /// at eight bits a component.
+    #[must_use]
+    pub const fn streams(self) -> bool {
+        !matches!(self, Self::Bmp | Self::Tiff | Self::Qoi | Self::Jpeg | Self::WebP)
+    }
+
+    /// A run of pixels as a [`crate::PictureWriter`] of this format takes it. Pure and independent of where
+    /// the run begins, so that every thread encodes what it rendered.
+    #[must_use]
+    pub fn encode(self, pixels: &[Rgb]) -> Vec<u8> {
+        match self {
+            Self::PpmAscii => ppm_text::ppm_text(pixels),
+            Self::Tga => quantize::bgr8(pixels),
+            Self::Hdr => rgbe::rgbe(pixels),
+            Self::Exr => quantize::rgb32_little_endian(pixels),
+            Self::Farbfeld => quantize::rgba16_big_endian(pixels),
+            Self::Ppm | Self::Png | Self::Bmp | Self::Tiff | Self::Qoi | Self::Jpeg | Self::WebP => {
+                quantize::rgb8(pixels)
+            }
+        }
+    }
+
+    /// Bytes that [`PictureFormat::encode`] makes of a pixel, where that is the same for all.
+    pub(crate) const fn bytes_per_pixel(self) -> Option<u64> {
+        match self {
+            Self::PpmAscii => None,
+            Self::Hdr => Some(4),
+            Self::Farbfeld => Some(8),
+            Self::Exr => Some(12),
+            Self::Ppm
+            | Self::Png
+            | Self::Bmp
+            | Self::Tiff
+            | Self::Tga
+            | Self::Qoi
+            | Self::Jpeg
+            | Self::WebP => Some(3),
+        }
+    }
+
+    /// What stands before the pixels, in the formats that are a header and then the pixels as they are
+    /// encoded (in OpenEXR each line has a few bytes of its own besides).
+    pub(crate) fn header(self, width: u32, height: u32) -> Vec<u8> {
+        match self {
+            Self::PpmAscii => header::ppm("P3", width, height),
+            Self::Ppm => header::ppm("P6", width, height),
+            Self::Tga => header::tga(width, height),
+            Self::Hdr => header::hdr(width, height),
+            Self::Farbfeld => header::farbfeld(width, height),
+            Self::Exr => exr::header(width, height),
+            Self::Png | Self::Bmp | Self::Tiff | Self::Qoi | Self::Jpeg | Self::WebP => Vec::new(),
+        }
+    }
+
+    /// Checks that the format can hold a picture of that size.
+    ///
+    /// # Errors
+    /// [`OutputError::Size`] where it cannot.
+    pub fn check_size(self, width: u32, height: u32) -> Result<(), OutputError> {
+        let longest = width.max(height);
+        let pixels = u64::from(width) * u64::from(height);
+        let holds = match self {
+            Self::Ppm | Self::PpmAscii | Self::Farbfeld => true,
+            Self::Png | Self::Hdr => longest <= i32::MAX as u32,
+            // A line is announced with its length in bytes, as a signed number of 32 bits; and the table of
+            // lines, eight bytes each, is made in memory.
+            Self::Exr => longest <= 1 << 24,
+            Self::Jpeg | Self::Tga => longest <= 0xffff,
+            Self::WebP => longest <= 0x4000,
+            // Offsets and lengths of 32 bits; BMP fills up each line to four bytes.
+            Self::Bmp => longest <= i32::MAX as u32 && (pixels + u64::from(height)) * 3 < (1 << 32) - 1024,
+            Self::Tiff => pixels * 3 < (1 << 32) - 1024,
+            // The limit that the format's own specification recommends.
+            Self::Qoi => pixels <= 400_000_000,
+        };
+        if holds && width > 0 && height > 0 {
+            Ok(())
+        } else {
+            Err(OutputError::Size { format: self, width, height })
+        }
+    }
+}
+
+impl fmt::Display for PictureFormat {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+/// A file name that does not tell the format.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct UnknownFormat {
+    /// The name.
+    pub path: PathBuf,
+}
+
+impl fmt::Display for UnknownFormat {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.path.extension() {
+            Some(extension) => write!(
+                f,
+                "cannot tell the format of {}: no picture format has the extension {}",
+                Quoted(&self.path),
+                Quoted(Path::new(extension))
+            )?,
+            None => {
+                write!(f, "cannot tell the format of {}: it has no extension", Quoted(&self.path))?;
+            }
+        }
+        f.write_str("; known are ")?;
+        let mut known = PictureFormat::ALL.iter().flat_map(|format| format.extensions()).peekable();
+        while let Some(extension) = known.next() {
+            write!(f, "{extension}{}", if known.peek().is_some() { ", " } else { "" })?;
+        }
+        Ok(())
+    }
+}
+
+impl std::error::Error for UnknownFormat {}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn extensions_tell_the_format_whatever_their_case() {
+        let of = |name: &str| PictureFormat::from_path(Path::new(name)).ok();
+        assert_eq!(of("a.png"), Some(PictureFormat::Png));
+        assert_eq!(of("dir.x/A.B.TiF"), Some(PictureFormat::Tiff));
+        assert_eq!(of("a.ppm"), Some(PictureFormat::Ppm));
+        assert_eq!((of("a.hry"), of("png"), of(".png"), of("")), (None, None, None, None));
+    }
+
+    #[test]
+    fn names_are_unique_and_found_again() {
+        for format in PictureFormat::ALL {
+            assert_eq!(PictureFormat::from_name(&format.name().to_uppercase()), Some(format));
+            for extension in format.extensions() {
+                assert_eq!(PictureFormat::from_extension(extension), Some(format));
+            }
+        }
+        assert_eq!(PictureFormat::from_name("gif"), None);
+    }
+
+    #[test]
+    fn an_unknown_extension_is_answered_with_the_known_ones() {
+        let error = PictureFormat::from_path(Path::new("a.gif")).unwrap_err().to_string();
+        assert_eq!(
+            error,
+            "cannot tell the format of `a.gif`: no picture format has the extension `gif`; known are png, \
+             ppm, pnm, bmp, tiff, tif, tga, qoi, jpg, jpeg, webp, hdr, exr, ff"
+        );
+    }
+
+    #[test]
+    fn sizes_beyond_a_format_are_refused() {
+        assert!(PictureFormat::Jpeg.check_size(65_535, 1).is_ok());
+        assert!(PictureFormat::Jpeg.check_size(65_536, 1).is_err());
+        assert!(PictureFormat::WebP.check_size(1, 16_385).is_err());
+        assert!(PictureFormat::Png.check_size(1 << 15, 1 << 15).is_ok());
+        assert!(PictureFormat::Bmp.check_size(1 << 15, 1 << 15).is_ok());
+        assert!(PictureFormat::Exr.check_size(1 << 30, 1).is_err());
+        assert!(PictureFormat::Ppm.check_size(0, 1).is_err());
+    }
+}
