@@ -1,0 +1,45 @@
+//! Pictures whose bytes are known: those of 2005, and the project's own examples.
+
+use conformance::{p3_hash, recorded};
+use hray::NoiseTables;
+use std::path::{Path, PathBuf};
+
+fn check(folder: &Path, scenes: &Path, tables: &NoiseTables) -> usize {
+    let recorded = recorded(folder).unwrap();
+    let mut failures = Vec::new();
+    for (name, expected) in &recorded {
+        let found = p3_hash(&scenes.join(format!("{name}.hry")), tables);
+        if found.as_ref() != Ok(expected) {
+            failures.push(format!("{name}: {found:?} instead of {expected}"));
+        }
+    }
+    assert!(failures.is_empty(), "{} pictures differ:\n{}", failures.len(), failures.join("\n"));
+    recorded.len()
+}
+
+/// The 18 scenes of the original distribution, with its own noise tables. They are not part of the project:
+/// `HRAY_CLASSIC` names the folder that holds them.
+#[test]
+fn the_pictures_of_2005_are_reproduced_byte_for_byte() {
+    let Some(classic) = std::env::var_os("HRAY_CLASSIC").map(PathBuf::from) else {
+        // Past the capture of the test harness, so that it is seen in an ordinary run.
+        use std::io::Write;
+        let _ = writeln!(
+            std::io::stderr(),
+            "SKIPPED: the pictures of 2005 (set HRAY_CLASSIC to the folder of the original's scenes)"
+        );
+        return;
+    };
+    let tables = hray::read_noise_tables(&classic.join("noise-tables.json")).unwrap();
+    assert_eq!(check(&classic, &classic.join("scenes"), &tables), 18);
+}
+
+#[test]
+fn the_examples_are_as_recorded() {
+    let examples = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples");
+    let count = check(&examples, &examples, &NoiseTables::default());
+    let scenes = std::fs::read_dir(&examples).unwrap().filter(|entry| {
+        entry.as_ref().is_ok_and(|entry| entry.path().extension().is_some_and(|e| e == "hry"))
+    });
+    assert_eq!(scenes.count(), count, "every example has its hash recorded (cargo xtask bless)");
+}

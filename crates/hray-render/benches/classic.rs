@@ -1,0 +1,78 @@
+//! What a picture of 256 by 256 pixels costs on one thread, by what the scene is made of.
+//!
+//! `cargo bench -p hray-render`
+
+use criterion::{Criterion, Throughput, criterion_group, criterion_main};
+use hray_core::{
+    DVec3, Light, Material, NoiseTables, NoiseTexture, Plane, Primitive, Resolution, Rgb, Scene, Shape, Sphere,
+    Texture, WindowCamera,
+};
+use hray_render::{Control, Region, Settings, render};
+use std::hint::black_box;
+use std::num::{NonZeroU32, NonZeroUsize};
+
+const SIDE: u32 = 256;
+
+fn scene(shapes: Vec<Shape>, material: &Material) -> Scene {
+    Scene {
+        camera: WindowCamera { eye: DVec3::new(0.0, 0.0, 150.0), window: [100, 100] },
+        background: Rgb::new(0.2, 0.3, 0.4),
+        primitives: shapes
+            .into_iter()
+            .map(|shape| Primitive { shape, material: material.clone() })
+            .collect(),
+        lights: vec![Light::Point { position: DVec3::new(100.0, 200.0, 100.0), intensity: Rgb::new(0.8, 0.8, 0.8) }],
+    }
+}
+
+fn material(texture: Texture, reflection: f64) -> Material {
+    Material { texture, reflection, shine: 60, transmission: 0.0, refractive_index: 0.0 }
+}
+
+fn wall() -> Shape {
+    Shape::Plane(Plane { normal: DVec3::new(0.0, 0.0, 1.0), offset: 350.0 })
+}
+
+fn bench(c: &mut Criterion, name: &str, scene: &Scene, depth: i32) {
+    let Ok(resolution) = Resolution::new(SIDE.into(), SIDE.into()) else { return };
+    let settings = Settings {
+        resolution,
+        region: Region::whole(resolution),
+        max_depth: depth,
+        samples: NonZeroU32::MIN,
+        threads: Some(NonZeroUsize::MIN),
+    };
+    let tables = NoiseTables::default();
+    let mut group = c.benchmark_group("classic");
+    group.throughput(Throughput::Elements(resolution.pixels()));
+    group.bench_function(name, |b| {
+        b.iter(|| {
+            render(scene, &tables, &settings, &Control::new(), |pixels| pixels.len(), |n| {
+                black_box(n);
+                Ok::<(), ()>(())
+            })
+        });
+    });
+    group.finish();
+}
+
+fn classic(c: &mut Criterion) {
+    let gray = Rgb::new(0.6, 0.6, 0.6);
+    let solid = material(Texture::Solid(gray), 0.0);
+    bench(c, "one plane, lit", &scene(vec![wall()], &solid), 0);
+    bench(c, "one plane, lit, with a highlight", &scene(vec![wall()], &material(Texture::Solid(gray), 0.5)), 0);
+    for octaves in [0, 5, 10] {
+        let texture = Texture::Noise(NoiseTexture::Turbulence { base: gray, octaves, grid: 32.0 });
+        let name = format!("one plane, turbulence of {} octaves", octaves + 1);
+        bench(c, &name, &scene(vec![wall()], &material(texture, 0.0)), 0);
+    }
+    let spheres = |n: usize| {
+        let at = |i: usize| DVec3::new((i % 10) as f64 * 20.0 - 90.0, (i / 10) as f64 * 20.0 - 90.0, -200.0);
+        (0..n).map(|i| Shape::Sphere(Sphere { radius: 8.0, center: at(i) })).collect::<Vec<_>>()
+    };
+    bench(c, "100 spheres", &scene(spheres(100), &solid), 0);
+    bench(c, "100 mirrors, 5 levels", &scene(spheres(100), &material(Texture::Solid(gray), 0.8)), 5);
+}
+
+criterion_group!(benches, classic);
+criterion_main!(benches);
