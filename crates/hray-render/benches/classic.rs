@@ -4,8 +4,8 @@
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use hray_core::{
-    DVec3, Light, Material, NoiseTables, NoiseTexture, Plane, Primitive, Resolution, Rgb, Scene, Shape, Sphere,
-    Texture, WindowCamera,
+    DVec3, Light, Material, NoiseTables, NoiseTexture, Plane, Primitive, Resolution, Rgb, Scene, Shape,
+    Sphere, Texture, WindowCamera,
 };
 use hray_render::{Control, Region, Settings, render};
 use std::hint::black_box;
@@ -17,11 +17,11 @@ fn scene(shapes: Vec<Shape>, material: &Material) -> Scene {
     Scene {
         camera: WindowCamera { eye: DVec3::new(0.0, 0.0, 150.0), window: [100, 100] },
         background: Rgb::new(0.2, 0.3, 0.4),
-        primitives: shapes
-            .into_iter()
-            .map(|shape| Primitive { shape, material: material.clone() })
-            .collect(),
-        lights: vec![Light::Point { position: DVec3::new(100.0, 200.0, 100.0), intensity: Rgb::new(0.8, 0.8, 0.8) }],
+        primitives: shapes.into_iter().map(|shape| Primitive { shape, material: material.clone() }).collect(),
+        lights: vec![Light::Point {
+            position: DVec3::new(100.0, 200.0, 100.0),
+            intensity: Rgb::new(0.8, 0.8, 0.8),
+        }],
     }
 }
 
@@ -47,10 +47,17 @@ fn bench(c: &mut Criterion, name: &str, scene: &Scene, depth: i32) {
     group.throughput(Throughput::Elements(resolution.pixels()));
     group.bench_function(name, |b| {
         b.iter(|| {
-            render(scene, &tables, &settings, &Control::new(), |pixels| pixels.len(), |n| {
-                black_box(n);
-                Ok::<(), ()>(())
-            })
+            render(
+                scene,
+                &tables,
+                &settings,
+                &Control::new(),
+                |pixels| pixels.len(),
+                |n| {
+                    black_box(n);
+                    Ok::<(), ()>(())
+                },
+            )
         });
     });
     group.finish();
@@ -60,7 +67,12 @@ fn classic(c: &mut Criterion) {
     let gray = Rgb::new(0.6, 0.6, 0.6);
     let solid = material(Texture::Solid(gray), 0.0);
     bench(c, "one plane, lit", &scene(vec![wall()], &solid), 0);
-    bench(c, "one plane, lit, with a highlight", &scene(vec![wall()], &material(Texture::Solid(gray), 0.5)), 0);
+    bench(
+        c,
+        "one plane, lit, with a highlight",
+        &scene(vec![wall()], &material(Texture::Solid(gray), 0.5)),
+        0,
+    );
     for octaves in [0, 5, 10] {
         let texture = Texture::Noise(NoiseTexture::Turbulence { base: gray, octaves, grid: 32.0 });
         let name = format!("one plane, turbulence of {} octaves", octaves + 1);

@@ -195,16 +195,21 @@ impl<'a> Worker<'a> {
         self.pixels.clear();
         self.points.clear();
         self.colors.clear();
-        for pixel in first..last {
-            // Both fit: they are coordinates of a pixel of the region.
-            let (x, y) = (region.x() + (pixel % width) as u32, region.y() + (pixel / width) as u32);
+        // Both fit: they are coordinates of a pixel of the region.
+        let (mut column, mut row) = ((first % width) as u32, (first / width) as u32);
+        for _ in first..last {
+            let (x, y) = (region.x() + column, region.y() + row);
             if samples == NonZeroU32::MIN {
                 self.add(self.window_point(x, y, [0.0; 2]))?;
-                continue;
+            } else {
+                let pixel_samples = PixelSamples::of(x, y);
+                for sample in 0..samples.get() {
+                    self.add(self.window_point(x, y, pixel_samples.offset(sample)))?;
+                }
             }
-            let pixel_samples = PixelSamples::of(x, y);
-            for sample in 0..samples.get() {
-                self.add(self.window_point(x, y, pixel_samples.offset(sample)))?;
+            column += 1;
+            if column == region.width() {
+                (column, row) = (0, row + 1);
             }
         }
         self.trace()?;

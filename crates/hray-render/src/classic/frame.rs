@@ -78,7 +78,7 @@ pub(super) struct Frame {
     pub(super) behind: Columns<3>,
     /// Where the colour of each ray goes in the hits of the frame above.
     pub(super) parent: Vec<u32>,
-    /// Distance to the nearest hit, and its primitive or -1.
+    /// Distance to the nearest hit, and its primitive, counted from [`NOTHING`].
     pub(super) nearest: Columns<2>,
     pub(super) color: Columns<3>,
 
@@ -128,38 +128,42 @@ impl Frame {
     /// Sorts the rays that hit something by what they hit: fills `groups` and `slot`.
     ///
     /// Every group starts at a multiple of the vector width; the lanes up to there repeat the last ray of the
-    /// group before.
+    /// group before. Within a group the rays keep their order.
     pub(super) fn group_hits(&mut self, primitives: usize, keys: &mut Vec<u64>) {
         self.groups.clear();
         self.slot.clear();
         let hit = &self.nearest.get()[1][..self.len];
         if primitives <= COUNTED {
-            let mut counts = [0u32; COUNTED + 1];
-            for &primitive in hit {
-                counts[(primitive + 1.0) as usize] += 1;
+            // Neighbours mostly hit the same, so both passes go run by run.
+            let mut places = [0usize; COUNTED + 1];
+            for run in hit.chunk_by(|a, b| a.to_bits() == b.to_bits()) {
+                places[place(run[0])] += run.len();
             }
-            let mut next = [0u32; COUNTED + 1];
             let mut start = 0;
-            for (primitive, &count) in counts[1..=primitives].iter().enumerate() {
-                if count > 0 {
-                    next[primitive + 1] = start as u32;
-                    self.groups.push(Group { primitive, start, len: count as usize });
-                    start = (start + count as usize).next_multiple_of(MAX_LANES);
+            for (primitive, place) in places[1..=primitives].iter_mut().enumerate() {
+                let len = std::mem::replace(place, start);
+                if len > 0 {
+                    self.groups.push(Group { primitive, start, len });
+                    start = (start + len).next_multiple_of(MAX_LANES);
                 }
             }
             self.slot.resize(start, u32::MAX);
-            for (ray, &primitive) in hit.iter().enumerate() {
-                if primitive >= 0.0 {
-                    let place = &mut next[(primitive + 1.0) as usize];
-                    self.slot[*place as usize] = ray as u32;
-                    *place += 1;
+            let mut ray = 0;
+            for run in hit.chunk_by(|a, b| a.to_bits() == b.to_bits()) {
+                let which = place(run[0]);
+                if which > 0 {
+                    let start = places[which];
+                    for (slot, ray) in self.slot[start..start + run.len()].iter_mut().zip(ray..) {
+                        *slot = ray;
+                    }
+                    places[which] = start + run.len();
                 }
+                ray += run.len() as u32;
             }
         } else {
             keys.clear();
-            keys.extend(
-                hit.iter().zip(0u64..).filter(|(p, _)| **p >= 0.0).map(|(&p, ray)| (p as u64) << 32 | ray),
-            );
+            let hits = hit.iter().zip(0u64..).filter(|(which, _)| place(**which) > 0);
+            keys.extend(hits.map(|(&which, ray)| (place(which) as u64 - 1) << 32 | ray));
             keys.sort_unstable();
             for run in keys.chunk_by(|a, b| a >> 32 == b >> 32) {
                 let start = self.slot.len();
@@ -179,6 +183,15 @@ impl Frame {
         self.hit_direction.reserve(len);
         self.hit_color.reserve(len);
     }
+}
+
+/// What [`Frame::nearest`] holds for a ray that hits nothing. The first primitive is one more, and so on: the
+/// low bits of the number count.
+pub(super) const NOTHING: f64 = (1u64 << 52) as f64;
+
+/// 0 for nothing, 1 for the first primitive, and so on.
+fn place(which: f64) -> usize {
+    which.to_bits() as u32 as usize
 }
 
 /// Up to this many primitives hits are grouped by counting, beyond by sorting.

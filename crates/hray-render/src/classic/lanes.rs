@@ -123,12 +123,43 @@ fn clip<S: Simd>(simd: S, v: Lanes<S>) -> Lanes<S> {
     v.simd_le(zero).select(zero, v)
 }
 
-/// One lane from each of the given places of a column.
+/// Whether the places follow one upon the other. They ascend, but the last may be repeated to fill a vector.
+#[inline(always)]
+pub(super) fn consecutive(places: &[u32]) -> bool {
+    let last = places.len() - 1;
+    let repeated = last > 0 && places[last] == places[last - 1];
+    !repeated && (places[last] - places[0]) as usize == last
+}
+
+/// One lane from each of the given places of a column; they ascend, or the last repeats.
 #[inline(always)]
 pub(super) fn gather<S: Simd>(simd: S, column: &[f64], places: &[u32]) -> Lanes<S> {
+    let places = &places[..Lanes::<S>::LEN];
+    if consecutive(places) {
+        let first = places[0] as usize;
+        return Lanes::<S>::from_slice(simd, &column[first..first + Lanes::<S>::LEN]);
+    }
     let mut lanes = [0.0; MAX_LANES];
-    for (lane, &place) in lanes.iter_mut().zip(&places[..Lanes::<S>::LEN]) {
+    for (lane, &place) in lanes.iter_mut().zip(places) {
         *lane = column[place as usize];
     }
     Lanes::<S>::from_slice(simd, &lanes[..Lanes::<S>::LEN])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn places_that_only_span_a_vector_are_not_consecutive() {
+        assert!(consecutive(&[5, 6, 7, 8, 9, 10, 11, 12]));
+        assert!(!consecutive(&[5, 6, 7, 7, 7, 7, 7, 7]));
+        assert!(
+            !consecutive(&[5, 6, 12, 12, 12, 12, 12, 12]),
+            "filled up with a ray that happens to be 7 further"
+        );
+        assert!(!consecutive(&[5, 6, 7, 8, 9, 10, 11, 13]));
+        assert!(consecutive(&[3, 4]));
+        assert!(!consecutive(&[3, 3]));
+    }
 }

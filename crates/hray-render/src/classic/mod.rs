@@ -151,7 +151,8 @@ impl Integrator {
             self.give_back(&mut upper[top], &lower[0]);
         }
         let [r, g, b] = frames[0].color.get();
-        colors.extend((0..points.len()).map(|i| Rgb::new(r[i], g[i], b[i])));
+        let components = r.iter().zip(g).zip(b).take(points.len());
+        colors.extend(components.map(|((&r, &g), &b)| Rgb::new(r, g, b)));
         Ok(())
     }
 

@@ -84,6 +84,11 @@ impl Prepared {
                 let normal = Vec3::splat(simd, normal);
                 let slope = normal.dot(rays.direction);
                 let height = normal.dot(rays.origin) + offset;
+                // On the plane, or leading away from it. (Where the product vanishes though neither factor
+                // does, the distance is far below 1e-6.)
+                if (height * slope).simd_ge(0.0).all_true() {
+                    return None;
+                }
                 let distance = -(height / slope);
                 Some((distance, distance.simd_gt(NEAREST) & !slope.abs().simd_lt(PARALLEL)))
             }

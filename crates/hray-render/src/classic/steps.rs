@@ -1,8 +1,8 @@
 //! The steps of the classic integrator, each over a whole frame: written once for every vector width.
 
 use super::Integrator;
-use super::frame::{Background, Frame, Group};
-use super::lanes::{Lanes, Mask, Vec3, gather};
+use super::frame::{Background, Frame, Group, NOTHING};
+use super::lanes::{Lanes, Mask, Vec3, consecutive, gather};
 use super::power::power;
 use super::shapes::{Prepared, Rays};
 use super::texture::color_at;
@@ -39,12 +39,14 @@ pub(super) fn intersect<S: Simd>(simd: S, shapes: &[Prepared], frame: &mut Frame
         let rays = Rays::new(origin, direction);
         // Before the first hit the distance is not a number, and nothing is farther than that.
         let mut nearest = Lanes::<S>::splat(simd, f64::NAN);
-        let mut primitive = Lanes::<S>::splat(simd, -1.0);
-        for (index, shape) in shapes.iter().enumerate() {
+        let mut primitive = Lanes::<S>::splat(simd, NOTHING);
+        let mut which = NOTHING;
+        for shape in shapes {
+            which += 1.0;
             if let Some((distance, hit)) = shape.hit(simd, &rays) {
                 let nearer = hit & !distance.simd_ge(nearest);
                 nearest = nearer.select(distance, nearest);
-                primitive = nearer.select(Lanes::<S>::splat(simd, index as f64), primitive);
+                primitive = nearer.select(Lanes::<S>::splat(simd, which), primitive);
             }
         }
         let [distances, primitives] = frame.nearest.get_mut();
@@ -243,9 +245,14 @@ pub(super) fn finish<S: Simd>(simd: S, frame: &mut Frame) {
     for group in &frame.groups {
         for i in places::<S>(group.start, group.len) {
             let color = Vec3::load(simd, frame.hit_color.get(), i).clip(simd);
-            let [r, g, b] = frame.color.get_mut();
             let lanes = Lanes::<S>::LEN.min(group.start + group.len - i);
-            for (lane, &ray) in frame.slot[i..i + lanes].iter().enumerate() {
+            let rays = &frame.slot[i..i + Lanes::<S>::LEN];
+            if consecutive(rays) {
+                color.store(frame.color.get_mut(), rays[0] as usize);
+                continue;
+            }
+            let [r, g, b] = frame.color.get_mut();
+            for (lane, &ray) in rays[..lanes].iter().enumerate() {
                 let ray = ray as usize;
                 (r[ray], g[ray], b[ray]) = (color.x[lane], color.y[lane], color.z[lane]);
             }
