@@ -1,5 +1,11 @@
 //! How long it takes to turn the colours of an 800 x 600 picture into the bytes of each format.
 
+#![allow(
+    clippy::unwrap_used,
+    missing_docs,
+    reason = "a benchmark may fail loudly, and its macros make items"
+)]
+
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use hray_core::Rgb;
 use hray_io::{PictureFormat, PictureWriter};

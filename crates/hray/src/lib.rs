@@ -1,1 +1,69 @@
-//! placeholder
+//! hray as a library: load a scene, render it, save the picture.
+//!
+//! ```
+//! use hray::{Control, Options};
+//!
+//! # fn main() -> Result<(), Box<dyn std::error::Error>> {
+//! # let directory = tempfile::tempdir()?;
+//! # std::env::set_current_dir(&directory)?;
+//! # std::fs::write("ball.hry", "renderDescr ( resolution (40,30) ) 3 [
+//! #   scene { camera (0.0,0.0,150.0) (100,75) } { background (0.0,0.0,0.0) }
+//! #   { objects (object ( sphere 25.0 (0.0,0.0,-50.0) ) ( texture ( diff solid (0.9,0.5,0.1) ) 0.3 20 0.0 0.0 )) }
+//! #   { lights (pointLight (80.0,80.0,100.0) (0.9,0.9,0.9)) } ]")?;
+//! let scene = hray::load("ball.hry")?;
+//! let statistics = hray::render_to_file(&scene, &Options::default(), "ball.png", &Control::new())?;
+//! println!("{} rays", statistics.rays.total());
+//! # assert!(std::fs::read("ball.png")?.starts_with(b"\x89PNG"));
+//! # Ok(())
+//! # }
+//! ```
+//!
+//! The steps are there one by one, too. [`SceneFile`] is a scene with its source text and everything there is
+//! to say about it; [`Options`] change what the scene file asks for; [`render_to_memory`] gives the colours as
+//! they were computed, in double precision, as a [`Picture`] that can be looked at and saved. A [`Control`],
+//! shared with another thread, tells how far a render is and stops it:
+//!
+//! ```
+//! use hray::{Control, LintLevels, Options, PictureFormat, SceneFile};
+//!
+//! let text = "renderDescr ( resolution (40,30) ) 3 [
+//!     scene { camera (0.0,0.0,150.0) (100,75) } { background (0.2,0.3,0.5) } { objects } { lights } ]";
+//! let file = SceneFile::parse("a.hry", text.into(), &LintLevels::default());
+//! assert_eq!(file.report(false), "");
+//! let Some(scene) = file.description() else { panic!("there are no errors") };
+//!
+//! let options = Options { size: Some(hray::Resolution::new(80, 60)?), ..Options::default() };
+//! let (picture, _) = hray::render_to_memory(scene, &options, &Control::new())?;
+//! assert_eq!(picture.pixel(79, 59), Some(hray::Rgb::new(0.2, 0.3, 0.5)));
+//! assert!(picture.encode(PictureFormat::Ppm)?.starts_with(b"P6\n80 60\n255\n"));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! A picture depends on the scene, the options and the noise tables alone: not on the machine, the number of
+//! threads or what else is going on.
+
+mod error;
+mod options;
+mod picture;
+mod render;
+mod scene_file;
+mod summary;
+
+pub use error::{Error, LoadError};
+pub use options::{Options, OptionsError};
+pub use picture::Picture;
+pub use render::{render_to, render_to_bytes, render_to_file, render_to_memory};
+pub use scene_file::{SceneFile, load};
+pub use summary::{Bounds, CameraSummary, Materials, Objects, Summary, WorstCase};
+
+pub use hray_core::{
+    DVec3, Description, DescriptionError, Light, MAX_DEPTH, MAX_PIXELS, MIN_DEPTH, Material, NoiseTables,
+    NoiseTexture, Plane, Primitive, Resolution, Rgb, Scene, Shape, Sphere, Texture, WindowCamera,
+};
+pub use hray_io::{
+    Destination, Input, InputError, MAX_SOURCE_BYTES, OutputError, PictureFormat, Quoted, TablesError,
+    UnknownFormat, parse_noise_tables, read_noise_tables, same_file,
+};
+pub use hray_lang::diagnostic::{Diagnostic, Severity};
+pub use hray_lang::lint::{ALL_LINTS, LINTS, Level, Lint, LintLevels, UnknownLint};
+pub use hray_render::{Control, MAX_SAMPLES, RayCounts, Region, RegionError, Settings, Statistics};

@@ -14,32 +14,23 @@ use hray_core::Rgb;
 /// Pixels formatted at a time, into a block that stays in the fastest cache.
 const BLOCK: usize = 64;
 
-/// The texts "0 " to "255 ", padded to four bytes.
-const TEXTS: [[u8; 4]; 256] = {
-    let mut texts = [[b' '; 4]; 256];
+/// The texts "0 " to "255 ": in the low four bytes, the first character lowest, and their length above.
+const TEXTS: [u64; 256] = {
+    let mut texts = [0; 256];
     let mut n = 0;
     while n < 256 {
-        let digits = [b'0' + (n / 100) as u8, b'0' + (n / 10 % 10) as u8, b'0' + (n % 10) as u8];
-        let skip = if n < 10 { 2 } else { (n < 100) as usize };
-        let mut i = skip;
-        while i < 3 {
-            texts[n][i - skip] = digits[i];
-            i += 1;
+        let mut text = b' ' as u64;
+        let mut length = 1;
+        let mut rest = n as u64;
+        while length == 1 || rest > 0 {
+            text = text << 8 | (b'0' as u64 + rest % 10);
+            rest /= 10;
+            length += 1;
         }
+        texts[n] = length << 32 | text;
         n += 1;
     }
     texts
-};
-
-/// The lengths of the texts.
-const LENGTHS: [u8; 256] = {
-    let mut lengths = [2; 256];
-    let mut n = 10;
-    while n < 256 {
-        lengths[n] = if n < 100 { 3 } else { 4 };
-        n += 1;
-    }
-    lengths
 };
 
 /// The text of a run of pixels.
@@ -57,31 +48,25 @@ pub(super) fn ppm_text(pixels: &[Rgb]) -> Vec<u8> {
 }
 
 /// Appends the text of a block whose components are all in 0..=255; appends nothing where one is not.
-fn common(block: &[Rgb], text: &mut Vec<u8>) -> bool {
-    let mut components = [[0.0; 3]; BLOCK];
-    for (copy, pixel) in components.iter_mut().zip(block) {
-        *copy = pixel.to_array();
-    }
-    let mut values = [0u8; 3 * BLOCK];
-    let mut all = 0;
-    for (value, &component) in values.iter_mut().zip(components.as_flattened()) {
-        let rounded = round_255(component);
-        all |= rounded;
-        *value = rounded as u8;
-    }
-    if all > 255 {
-        return false;
-    }
+fn common(block: &[Rgb], out: &mut Vec<u8>) -> bool {
     // The mask changes nothing; it tells the compiler that there is room, whatever the position.
     const MASK: usize = (12 * BLOCK).next_power_of_two() - 1;
     let mut bytes = [0; MASK + 1 + 4];
     let mut end = 0;
-    for &value in values.iter().take(3 * block.len()) {
-        let value = usize::from(value);
-        bytes[end & MASK..][..4].copy_from_slice(&TEXTS[value]);
-        end += usize::from(LENGTHS[value]);
+    let mut all = 0;
+    for pixel in block {
+        for component in pixel.to_array() {
+            let value = round_255(component);
+            all |= value;
+            let text = TEXTS[usize::from(value as u8)];
+            bytes[end & MASK..][..4].copy_from_slice(&(text as u32).to_le_bytes());
+            end += (text >> 32) as usize;
+        }
     }
-    text.extend_from_slice(&bytes[..end.min(MASK)]);
+    if all > 255 {
+        return false;
+    }
+    out.extend_from_slice(&bytes[..end.min(MASK)]);
     true
 }
 

@@ -25,16 +25,8 @@ fn clipped(component: f64, max: f64) -> u64 {
 /// Eight bits a component, red first.
 pub(super) fn rgb8(pixels: &[Rgb]) -> Vec<u8> {
     let mut bytes = vec![0; 3 * pixels.len()];
-    // In blocks of a fixed size, so that the loops are over flat arrays and vectorise.
-    const BLOCK: usize = 64;
-    for (out, block) in bytes.chunks_mut(3 * BLOCK).zip(pixels.chunks(BLOCK)) {
-        let mut components = [[0.0; 3]; BLOCK];
-        for (copy, pixel) in components.iter_mut().zip(block) {
-            *copy = pixel.to_array();
-        }
-        for (byte, &component) in out.iter_mut().zip(components.as_flattened()) {
-            *byte = clipped(component, 255.0) as u8;
-        }
+    for (out, pixel) in bytes.chunks_exact_mut(3).zip(pixels) {
+        out.copy_from_slice(&pixel.to_array().map(|component| clipped(component, 255.0) as u8));
     }
     bytes
 }

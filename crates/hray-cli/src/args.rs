@@ -1,0 +1,149 @@
+//! The command line, as clap reads it.
+
+use crate::lint_args::LintArgs;
+use crate::values::{self, Depth};
+use clap::{Args, Parser, Subcommand};
+use clap_complete::Shell;
+use hray::{PictureFormat, Resolution};
+use std::ffi::OsString;
+use std::num::{NonZeroU32, NonZeroUsize};
+use std::path::PathBuf;
+
+const AFTER_HELP: &str = "\
+Examples:
+  hray render scene.hry                    writes scene.png
+  hray render scene.hry -o big.exr --size 3840x2160 --samples 16
+  hray check scene.hry                     says what is wrong with it
+  hray scene.hry scene.ppm                 the classic form
+
+Exit codes: 0 all went well, 1 something is wrong with the input or could not be
+read or written, 2 the command line is wrong, 130 interrupted.";
+
+/// A ray tracer that continues HRay (2005): from a scene file to its exact picture.
+#[derive(Debug, Parser)]
+#[command(name = "hray", version, after_help = AFTER_HELP, max_term_width = 100)]
+#[command(
+    args_conflicts_with_subcommands = true,
+    override_usage = "hray <COMMAND>\n       hray [OPTIONS] INPUT.hry OUTPUT.ppm"
+)]
+pub(crate) struct Cli {
+    /// What to do.
+    #[command(subcommand)]
+    pub command: Option<Command>,
+    /// The form of 2005.
+    #[command(flatten)]
+    pub classic: ClassicArgs,
+}
+
+/// What to do.
+#[derive(Debug, Subcommand)]
+pub(crate) enum Command {
+    /// Render a scene to a picture
+    Render(Box<RenderArgs>),
+    /// Say what is wrong with scenes, without rendering them
+    Check(CheckArgs),
+    /// Show what is in a scene
+    Info(InfoArgs),
+    /// Print a script that lets a shell complete the commands and options
+    #[command(
+        after_help = "For example, for bash:\n  hray completions bash > ~/.local/share/bash-completion/completions/hray"
+    )]
+    Completions {
+        /// The shell
+        shell: Shell,
+    },
+    /// Print the man page
+    #[command(after_help = "For example:\n  hray man > ~/.local/share/man/man1/hray.1")]
+    Man {
+        /// The command it is about [default: all of hray]
+        command: Option<String>,
+    },
+}
+
+/// `hray INPUT.hry OUTPUT.ppm`.
+#[derive(Args, Debug)]
+pub(crate) struct ClassicArgs {
+    /// Classic form: the scene file
+    #[arg(value_name = "INPUT.hry")]
+    pub input: Option<PathBuf>,
+    /// Classic form: the picture, written as PPM text (P3) exactly as in 2005
+    #[arg(value_name = "OUTPUT.ppm")]
+    pub output: Option<PathBuf>,
+    /// What the form has no place for; taken in to be answered better than clap would.
+    #[arg(hide = true)]
+    pub more: Vec<OsString>,
+    #[command(flatten)]
+    pub common: CommonArgs,
+    #[command(flatten)]
+    pub lints: LintArgs,
+}
+
+/// What every render takes.
+#[derive(Args, Debug)]
+pub(crate) struct CommonArgs {
+    /// Use other noise tables than hray's own (JSON)
+    #[arg(long, value_name = "FILE")]
+    pub noise_tables: Option<PathBuf>,
+    /// How many threads to use; changes no pixel [default: as many as the machine has]
+    #[arg(long, value_name = "N", value_parser = values::threads)]
+    pub threads: Option<NonZeroUsize>,
+}
+
+/// `hray render`.
+#[derive(Args, Debug)]
+pub(crate) struct RenderArgs {
+    /// The scene file, or - for the standard input
+    pub input: PathBuf,
+    /// The picture, or - for the standard output [default: the input's name with .png, beside it]
+    ///
+    /// The extension tells the format, see --format. The file appears when it is complete; an older one of that
+    /// name is untouched until then.
+    #[arg(short, long)]
+    pub output: Option<PathBuf>,
+    /// The size of the picture, instead of the scene's; the camera's window stays
+    #[arg(long, value_name = "WxH", value_parser = values::size)]
+    pub size: Option<Resolution>,
+    /// How many times a ray may be reflected or refracted, -1 to 10000, instead of the scene's number
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = values::depth)]
+    pub depth: Option<Depth>,
+    /// Samples a pixel, 1 to 65536: more give smoother edges [default: 1, as in 2005]
+    #[arg(long, value_name = "N", value_parser = values::samples)]
+    pub samples: Option<NonZeroU32>,
+    /// Render only a part: X,Y is its upper left pixel, counted from the upper left
+    #[arg(long, value_name = "X,Y,W,H", value_parser = values::region)]
+    pub region: Option<[u32; 4]>,
+    #[command(flatten)]
+    pub common: CommonArgs,
+    /// Write PPM as text (P3), exactly as in 2005
+    #[arg(long)]
+    pub ascii: bool,
+    /// The format of the picture [default: by the extension, png on the standard output]
+    #[arg(long, value_name = "FORMAT", value_parser = values::FormatParser)]
+    pub format: Option<PictureFormat>,
+    /// No progress bar and no summary; warnings and errors are still shown
+    #[arg(short, long)]
+    pub quiet: bool,
+    #[command(flatten)]
+    pub lints: LintArgs,
+}
+
+/// `hray check`.
+#[derive(Args, Debug)]
+#[command(after_long_help = crate::lint_args::list())]
+pub(crate) struct CheckArgs {
+    /// The scene files, or - for the standard input
+    #[arg(required = true, value_name = "INPUT")]
+    pub inputs: Vec<PathBuf>,
+    #[command(flatten)]
+    pub lints: LintArgs,
+}
+
+/// `hray info`.
+#[derive(Args, Debug)]
+pub(crate) struct InfoArgs {
+    /// The scene file, or - for the standard input
+    pub input: PathBuf,
+    /// Write JSON, for programs
+    #[arg(long)]
+    pub json: bool,
+}

@@ -1,0 +1,73 @@
+//! What a render did, in a few lines.
+
+use crate::job::Job;
+use hray::Statistics;
+use std::time::Duration;
+
+/// The summary at the end of `hray render`.
+pub(crate) fn of(job: &Job<'_>, statistics: &Statistics, time: Duration) -> String {
+    let scene = &job.description.scene;
+    // The job has been run, so the settings are valid.
+    let size = job.options.settings(job.description).map_or_else(
+        |_| String::new(),
+        |settings| format!("{}x{}", settings.region.width(), settings.region.height()),
+    );
+    let seconds = time.as_secs_f64();
+    let rays = &statistics.rays;
+    let name =
+        if job.destination.is_stdout() { "the standard output".into() } else { job.name.to_string_lossy() };
+    format!(
+        "{name}: {size} {}, {}, {}\n\
+         {} rays: {} camera, {} shadow, {} reflection, {} refraction\n\
+         {seconds:.3} s with {}, {} rays per second\n",
+        job.format,
+        counted(scene.primitives.len(), "object"),
+        counted(scene.lights.len(), "light"),
+        grouped(rays.total()),
+        grouped(rays.camera),
+        grouped(rays.shadow),
+        grouped(rays.reflection),
+        grouped(rays.refraction),
+        counted(statistics.threads, "thread"),
+        grouped((rays.total() as f64 / seconds.max(1e-9)) as u64),
+    )
+}
+
+/// "no lights", "1 light", "2 lights".
+pub(crate) fn counted(count: usize, noun: &str) -> String {
+    match count {
+        0 => format!("no {noun}s"),
+        1 => format!("1 {noun}"),
+        n => format!("{} {noun}s", grouped(n as u64)),
+    }
+}
+
+/// A number with commas between its thousands.
+pub(crate) fn grouped(number: u64) -> String {
+    let digits = number.to_string();
+    let mut text = String::new();
+    for (i, digit) in digits.chars().enumerate() {
+        if i > 0 && (digits.len() - i).is_multiple_of(3) {
+            text.push(',');
+        }
+        text.push(digit);
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_readable() {
+        assert_eq!(
+            [grouped(0), grouped(999), grouped(1_000), grouped(12_345_678)],
+            ["0", "999", "1,000", "12,345,678"]
+        );
+        assert_eq!(
+            [counted(0, "light"), counted(1, "light"), counted(2, "light")],
+            ["no lights", "1 light", "2 lights"]
+        );
+    }
+}

@@ -1,0 +1,131 @@
+//! Rendering a description to wherever its picture is wanted.
+
+use crate::picture::Memory;
+use crate::{
+    Control, Description, Destination, Error, Options, OutputError, Picture, PictureFormat, Settings,
+    Statistics,
+};
+use hray_io::PictureWriter;
+use hray_render::RenderError;
+use std::convert::Infallible;
+use std::path::Path;
+
+/// Renders to a file, in the format that its name tells. The file appears when it is complete; until then,
+/// and where anything fails, what was there before is untouched.
+///
+/// # Errors
+/// [`Error::Format`] where the name does not tell a format, and those of [`render_to`].
+pub fn render_to_file(
+    description: &Description,
+    options: &Options,
+    path: impl AsRef<Path>,
+    control: &Control,
+) -> Result<Statistics, Error> {
+    let path = path.as_ref();
+    let format = PictureFormat::from_path(path)?;
+    render_to(description, options, &Destination::file(path)?, format, control)
+}
+
+/// Renders to a file, a device or the standard output.
+///
+/// Everything that can be refused is refused before the first ray. Pixels are written as they are rendered,
+/// so that memory does not grow with the picture, except in formats that do not allow it
+/// ([`PictureFormat::streams`]).
+///
+/// # Errors
+/// [`Error::Options`], [`Error::Output`], [`Error::Cancelled`], [`Error::Threads`].
+pub fn render_to(
+    description: &Description,
+    options: &Options,
+    destination: &Destination,
+    format: PictureFormat,
+    control: &Control,
+) -> Result<Statistics, Error> {
+    let settings = options.settings(description)?;
+    let [width, height] = size(&settings);
+    let writer = PictureWriter::create(destination, format, width, height)?;
+    render_into(description, options, &settings, format, writer, control)
+}
+
+/// Renders to the bytes of a file of that format.
+///
+/// # Errors
+/// As [`render_to`].
+pub fn render_to_bytes(
+    description: &Description,
+    options: &Options,
+    format: PictureFormat,
+    control: &Control,
+) -> Result<(Vec<u8>, Statistics), Error> {
+    let settings = options.settings(description)?;
+    let [width, height] = size(&settings);
+    let memory = Memory::default();
+    let writer = PictureWriter::to_writer(memory.clone(), Path::new("-"), format, width, height)?;
+    let statistics = render_into(description, options, &settings, format, writer, control)?;
+    Ok((memory.take(), statistics))
+}
+
+/// Renders to colours in double precision, 24 bytes a pixel.
+///
+/// # Errors
+/// [`Error::Options`], [`Error::Cancelled`], [`Error::Threads`], [`Error::Memory`].
+pub fn render_to_memory(
+    description: &Description,
+    options: &Options,
+    control: &Control,
+) -> Result<(Picture, Statistics), Error> {
+    let settings = options.settings(description)?;
+    let [width, height] = size(&settings);
+    let count = settings.region.pixels();
+    let mut pixels = Vec::new();
+    let reserved = usize::try_from(count).ok().and_then(|n| pixels.try_reserve_exact(n).ok());
+    reserved.ok_or(Error::Memory { bytes: count * size_of::<crate::Rgb>() as u64 })?;
+    let statistics = hray_render::render(
+        &description.scene,
+        &options.noise_tables,
+        &settings,
+        control,
+        <[crate::Rgb]>::to_vec,
+        |run| {
+            pixels.extend_from_slice(&run);
+            Ok::<(), Infallible>(())
+        },
+    )
+    .map_err(|error| match error {
+        RenderError::Cancelled => Error::Cancelled,
+        RenderError::Threads => Error::Threads,
+        RenderError::Sink(never) => match never {},
+    })?;
+    // A finished render has given every pixel of the region.
+    let picture = Picture::new(width, height, pixels).ok_or(Error::Cancelled)?;
+    Ok((picture, statistics))
+}
+
+fn size(settings: &Settings) -> [u32; 2] {
+    [settings.region.width(), settings.region.height()]
+}
+
+fn render_into(
+    description: &Description,
+    options: &Options,
+    settings: &Settings,
+    format: PictureFormat,
+    mut writer: PictureWriter,
+    control: &Control,
+) -> Result<Statistics, Error> {
+    let statistics = hray_render::render(
+        &description.scene,
+        &options.noise_tables,
+        settings,
+        control,
+        |run| format.encode(run),
+        |bytes| writer.write(&bytes),
+    )
+    .map_err(|error: RenderError<OutputError>| match error {
+        RenderError::Cancelled => Error::Cancelled,
+        RenderError::Threads => Error::Threads,
+        RenderError::Sink(error) => Error::Output(error),
+    })?;
+    writer.finish()?;
+    Ok(statistics)
+}
