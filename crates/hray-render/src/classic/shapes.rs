@@ -61,10 +61,14 @@ impl Prepared {
                 let b = rays.direction.dot(from_center) * 2.0;
                 let c = from_center.dot(from_center) - squared_radius;
                 let discriminant = b * b - rays.four_a * c;
-                // Missed, or both roots are behind: with b and c positive, the root of the discriminant is at
-                // most b (unless the square of b overflows).
+                let missed = discriminant.simd_lt(0.0);
+                if missed.all_true() {
+                    return None;
+                }
+                // Both roots are behind: with b and c positive, the root of the discriminant is at most b
+                // (unless the square of b overflows).
                 let behind = b.simd_gt(0.0) & c.simd_gt(0.0) & discriminant.simd_lt(f64::INFINITY);
-                let missed = discriminant.simd_lt(0.0) | behind;
+                let missed = missed | behind;
                 if missed.all_true() {
                     return None;
                 }
