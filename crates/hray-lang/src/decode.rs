@@ -36,13 +36,15 @@ pub fn decode(bytes: &[u8]) -> Decoded<'_> {
 fn explain(bytes: &[u8], offset: usize, span: Span) -> Diagnostic {
     let line = 1 + bytes.iter().take(offset).filter(|byte| **byte == b'\n').count();
     let byte = bytes.get(offset).copied().unwrap_or_default();
-    let message = format!("the file is not UTF-8 text: wrong byte {byte:#04x} in line {line}, at byte offset {offset}");
+    let message =
+        format!("the file is not UTF-8 text: wrong byte {byte:#04x} in line {line}, at byte offset {offset}");
     let error = Diagnostic::error("not-utf8", message, span, "the first byte that is not UTF-8");
     if bytes.starts_with(&[0xFF, 0xFE]) || bytes.starts_with(&[0xFE, 0xFF]) {
         return error.with_help("this looks like UTF-16; save the file as UTF-8");
     }
     if bytes.iter().take(1000).any(|byte| *byte == 0) {
-        return error.with_help("this is no text file; a scene is a text file in UTF-8 (plain ASCII is fine)");
+        return error
+            .with_help("this is no text file; a scene is a text file in UTF-8 (plain ASCII is fine)");
     }
     error.with_help("save the file as UTF-8 (plain ASCII is fine)")
 }

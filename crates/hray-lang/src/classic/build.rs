@@ -9,8 +9,8 @@ use super::spans::Spans;
 use super::values::Reader;
 use crate::diagnostic::{Diagnostic, Span};
 use hray_core::{
-    Description, Light, MAX_DEPTH, MIN_DEPTH, Material, NoiseTexture, Plane, Primitive, Resolution, Rgb, Scene,
-    Shape, Sphere, Texture, WindowCamera,
+    Description, Light, MAX_DEPTH, MIN_DEPTH, Material, NoiseTexture, Plane, Primitive, Resolution, Rgb,
+    Scene, Shape, Sphere, Texture, WindowCamera,
 };
 
 /// The parts of a description that stand so far.

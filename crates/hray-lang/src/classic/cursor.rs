@@ -8,6 +8,8 @@ use logos::{Lexer, Logos};
 pub(crate) struct Cursor<'s> {
     lexer: Lexer<'s, Token>,
     now: Lexeme<'s>,
+    /// The token after.
+    after: Lexeme<'s>,
     /// The token before.
     last: Lexeme<'s>,
 }
@@ -20,23 +22,31 @@ impl<'s> Cursor<'s> {
             lexer.bump('\u{feff}'.len_utf8());
         }
         let start = Span::at(lexer.span().end);
-        let last = Lexeme { token: Token::Unknown, span: start, text: "" };
-        let now = next(&mut lexer);
-        Self { lexer, now, last }
+        Self::start(lexer, start)
     }
 
     /// A cursor at `span.start` of a source, for another look at a part of it.
     pub(crate) fn within(source: &'s str, span: Span) -> Self {
         let mut lexer = Token::lexer(source.get(..span.end).unwrap_or_default());
         lexer.bump(source.floor_char_boundary(span.start.min(span.end)));
-        let last = Lexeme { token: Token::Unknown, span: Span::at(span.start), text: "" };
+        Self::start(lexer, Span::at(span.start))
+    }
+
+    fn start(mut lexer: Lexer<'s, Token>, start: Span) -> Self {
+        let last = Lexeme { token: Token::Unknown, span: start, text: "" };
         let now = next(&mut lexer);
-        Self { lexer, now, last }
+        let after = next(&mut lexer);
+        Self { lexer, now, after, last }
     }
 
     /// The token here.
     pub(crate) const fn now(&self) -> Lexeme<'s> {
         self.now
+    }
+
+    /// The token after it; at the end, the end again.
+    pub(crate) const fn after(&self) -> Lexeme<'s> {
+        self.after
     }
 
     /// The token before it.
@@ -48,7 +58,8 @@ impl<'s> Cursor<'s> {
     pub(crate) fn bump(&mut self) -> Lexeme<'s> {
         self.last = self.now;
         if self.now.token != Token::End {
-            self.now = next(&mut self.lexer);
+            self.now = self.after;
+            self.after = next(&mut self.lexer);
         }
         self.last
     }
@@ -57,6 +68,10 @@ impl<'s> Cursor<'s> {
     pub(crate) fn ahead(&self, count: usize) -> Vec<Lexeme<'s>> {
         let mut lexer = self.lexer.clone();
         let mut tokens = vec![self.now];
+        if self.now.token != Token::End {
+            tokens.push(self.after);
+        }
+        tokens.truncate(count);
         while tokens.len() < count && tokens.last().is_some_and(|lexeme| lexeme.token != Token::End) {
             tokens.push(next(&mut lexer));
         }

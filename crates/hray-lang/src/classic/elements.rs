@@ -5,7 +5,6 @@ use super::parser::{Halt, Parser};
 use super::sections::Section;
 use super::token::{Bracket, Lexeme, Token};
 use super::words::nearest;
-use crate::diagnostic::Diagnostic;
 
 /// What stands in a list.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -15,13 +14,6 @@ pub(crate) enum Element {
 }
 
 impl Element {
-    const fn of(section: Section) -> Self {
-        match section {
-            Section::Lights => Self::Light,
-            _ => Self::Object,
-        }
-    }
-
     const fn items(self) -> &'static [Item] {
         match self {
             Self::Object => grammar::OBJECT,
@@ -44,7 +36,7 @@ impl Element {
         }
     }
 
-    fn with_word(word: &str) -> Option<Self> {
+    pub(crate) fn with_word(word: &str) -> Option<Self> {
         [Self::Object, Self::Light].into_iter().find(|element| element.words().contains(&word))
     }
 }
@@ -58,10 +50,9 @@ enum Next {
 
 impl Parser<'_> {
     /// Reads the elements of a section, up to the brace that closes it.
-    pub(crate) fn elements(&mut self, section: Section) -> Result<(), Halt> {
-        let due = Element::of(section);
+    pub(crate) fn elements(&mut self, section: Section, due: Element) -> Result<(), Halt> {
         loop {
-            let element = match self.next_element(due)? {
+            let element = match self.next_element(section, due)? {
                 Next::Read(element) => element,
                 Next::Again => continue,
                 Next::End => return Ok(()),
@@ -98,35 +89,67 @@ impl Parser<'_> {
         Ok(())
     }
 
-    fn next_element(&mut self, due: Element) -> Result<Next, Halt> {
+    fn next_element(&mut self, section: Section, due: Element) -> Result<Next, Halt> {
         let now = self.cursor.now();
         if self.is_full() {
             return Err(Halt::Stop);
         }
         match now.token {
             Token::Close(Bracket::Curly | Bracket::Square) => return Ok(Next::End),
-            Token::Open(Bracket::Round) => return Ok(Next::Read(self.element_here().unwrap_or(due))),
+            Token::Open(Bracket::Round) if !self.is_before_section() => {
+                return Ok(Next::Read(self.element_here().unwrap_or(due)));
+            }
             Token::End => {
                 let expected = format!("another {} or `}}` to close this section", due.noun());
                 return Err(self.report_unfinished(&expected, true));
             }
-            _ if self.at_section() => return Ok(Next::End),
-            Token::Open(_) => return Ok(Next::Read(self.element_here().unwrap_or(due))),
-            Token::Word if nearest(now.text, due.words().iter().copied()).is_some() => {
-                return Ok(Next::Read(due));
+            Token::Word if now.text == section.word() => {
+                self.complain_doubled(&now);
+                return Ok(Next::Again);
             }
+            _ if self.at_section() => return Ok(Next::End),
+            Token::Open(Bracket::Curly | Bracket::Square) => {
+                return Ok(Next::Read(self.element_here().unwrap_or(due)));
+            }
+            Token::Word if self.is_bare_element(due) => return Ok(Next::Read(due)),
             _ => {}
         }
         self.complain_between(due);
-        self.skip_to(|parser| parser.at_element_or_end() || matches!(parser.cursor.now().token, Token::Open(_)));
+        self.skip_to(|parser| {
+            let now = parser.cursor.now();
+            let starts = matches!(now.token, Token::Open(_)) || Element::with_word(now.text).is_some();
+            starts || parser.at_element_or_end()
+        });
         Ok(Next::Again)
+    }
+
+    /// Whether an element starts here but for its bracket.
+    fn is_bare_element(&self, due: Element) -> bool {
+        self.cursor.after().token == Token::Open(Bracket::Round)
+            && nearest(self.cursor.now().text, due.words().iter().copied()).is_some()
+    }
+
+    /// Whether another element stands here, after the brace that closes its section.
+    pub(crate) fn goes_on(&self, element: Element) -> bool {
+        match self.cursor.now().token {
+            Token::Open(Bracket::Round) => self.element_here() == Some(element),
+            Token::Word => self.is_bare_element(element),
+            _ => false,
+        }
+    }
+
+    /// Whether a section starts after the bracket here.
+    fn is_before_section(&self) -> bool {
+        self.cursor.after().token == Token::Open(Bracket::Curly)
+            && self.cursor.ahead(3).get(2).is_some_and(|word| Section::with_word(word.text).is_some())
     }
 
     /// Which element starts here for certain.
     fn element_here(&self) -> Option<Element> {
-        let ahead = self.cursor.ahead(2);
-        let [Lexeme { token: Token::Open(_), .. }, word] = ahead[..] else { return None };
-        Element::with_word(word.text)
+        match self.cursor.now().token {
+            Token::Open(_) => Element::with_word(self.cursor.after().text),
+            _ => None,
+        }
     }
 
     /// Whether an element starts here for certain, or the list ends.
@@ -134,41 +157,12 @@ impl Parser<'_> {
         match self.cursor.now().token {
             Token::Open(_) => self.element_here().is_some() || self.at_section(),
             Token::Word => self.at_section(),
-            Token::Close(Bracket::Curly) => {
-                let ahead = self.cursor.ahead(2);
-                ahead.get(1).is_none_or(|next| {
-                    matches!(next.token, Token::Open(Bracket::Curly) | Token::Close(Bracket::Square) | Token::End)
-                })
-            }
-            Token::Close(Bracket::Square) => self.cursor.ahead(2).len() < 2 || self.ends_after_this(),
-            _ => false,
+            Token::Close(Bracket::Curly) => matches!(
+                self.cursor.after().token,
+                Token::Open(Bracket::Curly) | Token::Close(Bracket::Square) | Token::End
+            ),
+            _ => self.at_last_bracket(),
         }
-    }
-
-    fn ends_after_this(&self) -> bool {
-        self.cursor.ahead(2).get(1).is_some_and(|next| next.token == Token::End)
-    }
-
-    /// Something between the elements of a list.
-    fn complain_between(&mut self, due: Element) {
-        let now = self.cursor.now();
-        let noun = due.noun();
-        let label = format!("expected `(` of another {noun}, or `}}` to close this section");
-        let message = match now.token {
-            Token::Close(_) => format!("one `{}` too many", now.text),
-            _ => format!("unexpected {} between {noun}s", now.name()),
-        };
-        let error = Diagnostic::error("unexpected-token", message, now.span, label);
-        let error = match now.token {
-            Token::Comma => error.with_note(format!("{noun}s follow each other without commas")),
-            _ => error,
-        };
-        let error = match now.token {
-            Token::Comma | Token::Close(_) | Token::Unknown => error.with_suggestion(now.span, "", "remove it"),
-            _ => error,
-        };
-        self.report(error);
-        self.cursor.bump();
     }
 }
 

@@ -122,11 +122,30 @@ pub(crate) static BACKGROUND: &[Item] = &[
 /// The start of `Objects`; `TexturedObject`s follow.
 pub(crate) static OBJECTS: &[Item] = &[Open(Curly, "the objects section"), Word("objects")];
 
+/// The start of `Objects` up to the first shape.
+pub(crate) static OBJECTS_AHEAD: &[Item] = &[
+    Open(Curly, "the objects section"),
+    Word("objects"),
+    Open(Round, "the object"),
+    Word("object"),
+    Open(Round, "the shape"),
+    OneOf(&SHAPE),
+];
+
 /// The end of `Objects`.
 pub(crate) static OBJECTS_END: &[Item] = &[Close(Curly, "the objects section")];
 
 /// The start of `Lights`; `Light`s follow.
 pub(crate) static LIGHTS: &[Item] = &[Open(Curly, "the lights section"), Word("lights")];
+
+/// The start of `Lights` up to the end of the first light.
+pub(crate) static LIGHTS_AHEAD: &[Item] = &[
+    Open(Curly, "the lights section"),
+    Word("lights"),
+    Open(Round, "the light"),
+    OneOf(&LIGHT_KIND),
+    Close(Round, "the light"),
+];
 
 /// The end of `Lights`.
 pub(crate) static LIGHTS_END: &[Item] = &[Close(Curly, "the lights section")];
@@ -198,10 +217,7 @@ static DIFF: Choice = Choice {
     what: "diffuse colour",
     forms: &[
         Form { word: "solid", items: &[Tup(&color("the solid colour"))] },
-        Form {
-            word: "perlin",
-            items: &[Open(Round, "the noise"), OneOf(&NOISE), Close(Round, "the noise")],
-        },
+        Form { word: "perlin", items: &[Open(Round, "the noise"), OneOf(&NOISE), Close(Round, "the noise")] },
     ],
 };
 

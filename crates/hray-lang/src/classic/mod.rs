@@ -6,8 +6,8 @@
 //! The grammar is data (`grammar`): a handful of flat sequences in which every number has a name.
 //! `sequence` walks a sequence and the tokens side by side. Where they part, `repair` finds the least change
 //! that brings them together again, `complaint` puts that change into words, and reading goes on as if it
-//! had been made. Nothing recurses, and the work is linear in the length of the source: after
-//! 20 errors the rest is not read.
+//! had been made. Nothing recurses, and the work is linear in the length of the source: after 20 errors the
+//! rest is not read.
 
 mod build;
 mod comments;

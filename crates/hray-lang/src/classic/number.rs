@@ -7,25 +7,26 @@ use crate::diagnostic::{Diagnostic, Span};
 /// A longer replacement would not help anyone.
 const LONGEST_SUGGESTION: usize = 40;
 
-/// The value of a real literal, correctly rounded.
-pub(crate) fn read_real(text: &str, span: Span) -> Result<f64, Diagnostic> {
-    match text.parse::<f64>() {
-        Ok(value) if value.is_finite() => Ok(value),
-        _ => {
-            let message = format!("the real number {} is too large", quoted(text));
-            let label = "the largest real number is about 1.8 times 10 to the power 308";
-            Err(Diagnostic::error("number-too-large", message, span, label))
-        }
-    }
+/// The value of a real literal, correctly rounded; none where it is too large for one.
+pub(crate) fn read_real(text: &str) -> Option<f64> {
+    text.parse::<f64>().ok().filter(|value| value.is_finite())
 }
 
-/// The value of an integer literal.
-pub(crate) fn read_integer(text: &str, span: Span) -> Result<i64, Diagnostic> {
-    text.parse::<i64>().map_err(|_| {
-        let message = format!("the integer {} is too large", quoted(text));
-        let label = format!("integers lie between {} and {}", i64::MIN, i64::MAX);
-        Diagnostic::error("number-too-large", message, span, label)
-    })
+/// The value of an integer literal; none where it is too large for one.
+pub(crate) fn read_integer(text: &str) -> Option<i64> {
+    text.parse::<i64>().ok()
+}
+
+/// The error about a literal that is too large.
+pub(crate) fn too_large(kind: NumberKind, text: &str, span: Span) -> Diagnostic {
+    let (noun, label) = match kind {
+        NumberKind::Real => {
+            ("real number", "the largest real number is about 1.8 times 10 to the power 308".to_string())
+        }
+        NumberKind::Integer => ("integer", format!("integers lie between {} and {}", i64::MIN, i64::MAX)),
+    };
+    let message = format!("the {noun} {} is too large", quoted(text));
+    Diagnostic::error("number-too-large", message, span, label)
 }
 
 /// How to write `text` (a number in any notation) as a number of this kind; none where that is not clear,
@@ -118,10 +119,10 @@ mod tests {
 
     #[test]
     fn reals_are_rounded_correctly_and_keep_the_sign_of_zero() {
-        assert_eq!(read_real("0.1", Span::at(0)).unwrap(), 0.1);
-        assert!(read_real("-0.0", Span::at(0)).unwrap().is_sign_negative());
-        assert!(read_real(&("1".to_string() + &"0".repeat(400) + ".0"), Span::at(0)).is_err());
-        assert_eq!(read_integer("-9223372036854775808", Span::at(0)).unwrap(), i64::MIN);
-        assert!(read_integer("9223372036854775808", Span::at(0)).is_err());
+        assert_eq!(read_real("0.1"), Some(0.1));
+        assert!(read_real("-0.0").unwrap().is_sign_negative());
+        assert_eq!(read_real(&format!("1{}.0", "0".repeat(400))), None);
+        assert_eq!(read_integer("-9223372036854775808"), Some(i64::MIN));
+        assert_eq!(read_integer("9223372036854775808"), None);
     }
 }

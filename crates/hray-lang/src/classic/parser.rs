@@ -2,6 +2,7 @@
 
 use super::build::Built;
 use super::cursor::Cursor;
+use super::sections::Met;
 use super::token::{Bracket, Token};
 use super::values::Values;
 use crate::diagnostic::{Diagnostic, Span};
@@ -9,7 +10,7 @@ use crate::diagnostic::{Diagnostic, Span};
 /// After this many errors the rest of the source is not read.
 pub(crate) const MOST_ERRORS: usize = 20;
 /// After this many errors in one sequence the rest of it is passed over.
-pub(crate) const MOST_ERRORS_IN_SEQUENCE: usize = 4;
+pub(crate) const MOST_ERRORS_IN_SEQUENCE: usize = 8;
 
 /// Why reading did not go on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -43,6 +44,8 @@ pub(crate) struct Parser<'s> {
     pub(crate) kinds_reported: usize,
     /// Up to where in the source missing commas have been reported.
     pub(crate) commas_reported: usize,
+    /// The sections that were met, in the order of the source.
+    pub(crate) met: Vec<Met>,
     /// Whether only the end of the lights section and of the scene are to come.
     pub(crate) in_last_section: bool,
     /// Whether the header is missing, and the last bracket may be with it.
@@ -65,6 +68,7 @@ impl<'s> Parser<'s> {
             values: Values::default(),
             kinds_reported: 0,
             commas_reported: 0,
+            met: Vec::new(),
             in_last_section: false,
             headless: false,
             strays: false,

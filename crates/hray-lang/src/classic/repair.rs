@@ -33,24 +33,31 @@ pub(crate) enum Edit {
     Replace(Step),
     /// A single number stands for a tuple.
     ReplaceTuple(Step),
-    /// A word stands for the word of a form.
+    /// Something stands for the word of a form.
     ReplaceForm(&'static Choice, &'static Form),
-    /// A word stands where a form is due, and nobody knows which: everything up to the closing bracket of
-    /// the group is passed over.
+    /// Something stands where a form is due, and nobody knows which: everything up to the closing bracket
+    /// of the group is passed over.
     SkipForm(&'static Choice),
 }
 
 /// The changes to make before the next token that is as it should be; none where no cheap change helps.
 /// `tokens` are those ahead, the first not what is due; `follows` says which tokens may come after the route.
-pub(crate) fn plan(route: &Route, tokens: &[Lexeme<'_>], follows: fn(&Lexeme<'_>) -> bool) -> Option<Vec<Edit>> {
-    let start = State { route: route.clone(), at: 0, edits: Vec::new(), settled: false, matched: 0 };
-    search(start, tokens, follows).map(|state| state.edits)
+pub(crate) fn plan(
+    route: &Route,
+    tokens: &[Lexeme<'_>],
+    follows: fn(&Lexeme<'_>) -> bool,
+) -> Option<Vec<Edit>> {
+    search(route, tokens, follows).map(|(_, state)| state.edits)
 }
 
 /// How many of the tokens stand where the cheapest alignment with the route wants them.
 pub(crate) fn matches(route: &Route, tokens: &[Lexeme<'_>]) -> usize {
-    let start = State { route: route.clone(), at: 0, edits: Vec::new(), settled: false, matched: 0 };
-    search(start, tokens, |_| true).map_or(0, |state| state.matched)
+    search(route, tokens, |_| true).map_or(0, |(_, state)| state.matched)
+}
+
+/// What the cheapest alignment of the tokens with the route costs.
+pub(crate) fn cost(route: &Route, tokens: &[Lexeme<'_>]) -> usize {
+    search(route, tokens, |_| true).map_or(CEILING + 1, |(cost, _)| cost)
 }
 
 /// A partial alignment.
@@ -67,9 +74,11 @@ struct State {
     matched: usize,
 }
 
-fn search(start: State, tokens: &[Lexeme<'_>], follows: fn(&Lexeme<'_>) -> bool) -> Option<State> {
+/// The cheapest alignment, and its cost.
+fn search(route: &Route, tokens: &[Lexeme<'_>], follows: fn(&Lexeme<'_>) -> bool) -> Option<(usize, State)> {
     let mut queue = Queue { buckets: vec![Vec::new(); CEILING + 1] };
-    queue.push(0, start);
+    let route = route.clone();
+    queue.push(0, State { route, at: 0, edits: Vec::new(), settled: false, matched: 0 });
     let mut tried = 0;
     let mut cost = 0;
     while cost <= CEILING {
@@ -82,8 +91,8 @@ fn search(start: State, tokens: &[Lexeme<'_>], follows: fn(&Lexeme<'_>) -> bool)
             }
             let state = match_on(state, tokens);
             match (tokens.get(state.at), state.route.step()) {
-                (None, _) => return Some(state),
-                (Some(lexeme), None) if follows(lexeme) => return Some(state),
+                (None, _) => return Some((cost, state)),
+                (Some(lexeme), None) if follows(lexeme) => return Some((cost, state)),
                 (Some(_), None) => queue.push(cost + 3, State { at: tokens.len(), ..state }),
                 (Some(lexeme), Some(step)) => queue.branch(cost, &state, step, lexeme, tokens),
             }
@@ -145,13 +154,14 @@ impl Queue {
         match step {
             Step::Choice(choice) => self.branch_at_choice(cost, state, choice, lexeme, tokens),
             _ => {
-                self.push_edit(cost + insertion_cost(step), state, Edit::Insert(step), |next| next.route.advance());
-                if let Some(price) = replacement_cost(step, lexeme) {
-                    self.push_edit(cost + price, state, Edit::Replace(step), |next| {
-                        next.route.advance();
-                        next.at += 1;
-                    });
-                }
+                self.push_edit(cost + insertion_cost(step), state, Edit::Insert(step), |next| {
+                    next.route.advance()
+                });
+                let price = replacement_cost(step, lexeme);
+                self.push_edit(cost + price, state, Edit::Replace(step), |next| {
+                    next.route.advance();
+                    next.at += 1;
+                });
             }
         }
         if let Step::Open(_, _, Some(_)) = step {
@@ -174,25 +184,40 @@ impl Queue {
         lexeme: &Lexeme<'_>,
         tokens: &[Lexeme<'_>],
     ) {
-        if lexeme.token == Token::Word {
-            let meant = nearest(lexeme.text, choice.forms.iter().map(|form| form.word));
-            if let Some(form) = meant.and_then(|word| choice.form(word)) {
-                let price = if WORDS.contains(&lexeme.text) { 3 } else { 2 };
-                self.push_edit(cost + price, state, Edit::ReplaceForm(choice, form), |next| {
-                    next.route.choose(form);
-                    next.at += 1;
+        let meant = match lexeme.token {
+            Token::Word => nearest(lexeme.text, choice.forms.iter().map(|form| form.word)),
+            _ => None,
+        };
+        if let Some(form) = meant.and_then(|word| choice.form(word)) {
+            let price = if WORDS.contains(&lexeme.text) { 3 } else { 2 };
+            self.replace_form(cost + price, state, choice, form);
+            return;
+        }
+        let is_word = lexeme.token == Token::Word;
+        if is_word || choice.is_wide() {
+            let price = if WORDS.contains(&lexeme.text) { 7 } else { 5 };
+            self.push_edit(cost + price, state, Edit::SkipForm(choice), |next| {
+                next.route.skip_item();
+                next.at += group_length(tokens.get(next.at..).unwrap_or_default());
+            });
+        }
+        if !choice.is_wide() {
+            for form in choice.forms {
+                self.push_edit(cost + 4, state, Edit::InsertForm(choice, form), |next| {
+                    next.route.choose(form)
                 });
-            } else {
-                let price = if WORDS.contains(&lexeme.text) { 7 } else { 5 };
-                self.push_edit(cost + price, state, Edit::SkipForm(choice), |next| {
-                    next.route.skip_item();
-                    next.at += group_length(tokens.get(next.at..).unwrap_or_default());
-                });
+                if !is_word {
+                    self.replace_form(cost + 6, state, choice, form);
+                }
             }
         }
-        for form in choice.forms {
-            self.push_edit(cost + 4, state, Edit::InsertForm(choice, form), |next| next.route.choose(form));
-        }
+    }
+
+    fn replace_form(&mut self, cost: usize, state: &State, choice: &'static Choice, form: &'static Form) {
+        self.push_edit(cost, state, Edit::ReplaceForm(choice, form), |next| {
+            next.route.choose(form);
+            next.at += 1;
+        });
     }
 }
 
@@ -220,7 +245,7 @@ const fn insertion_cost(step: Step) -> usize {
     }
 }
 
-/// What it costs to leave out a token. The words and braces that structure the file are the last to go.
+/// What it costs to leave out a token. The words of the grammar are the last to go.
 fn deletion_cost(lexeme: &Lexeme<'_>) -> usize {
     match lexeme.token {
         Token::Unknown => 1,
@@ -231,19 +256,17 @@ fn deletion_cost(lexeme: &Lexeme<'_>) -> usize {
     }
 }
 
-/// What it costs to read a token as what is due; none where nobody could have meant that.
-fn replacement_cost(step: Step, lexeme: &Lexeme<'_>) -> Option<usize> {
+/// What it costs to read a token as what is due: little where that is easily confused, else a little less
+/// than to leave it out and to add what is due.
+fn replacement_cost(step: Step, lexeme: &Lexeme<'_>) -> usize {
     match (step, lexeme.token) {
-        (Step::Number(_), Token::Integer | Token::Real) => Some(2),
-        (Step::Number(_), Token::OddNumber) => Some(if has_digits(lexeme) { 2 } else { 4 }),
-        (Step::Number(_), Token::Word) => Some(5),
+        (Step::Number(_), Token::Integer | Token::Real | Token::OddNumber) => 2,
         (Step::Word(word), Token::Word) if nearest(lexeme.text, std::iter::once(word)).is_some() => {
-            Some(if WORDS.contains(&lexeme.text) { 3 } else { 2 })
+            if WORDS.contains(&lexeme.text) { 3 } else { 2 }
         }
-        (Step::Word(_), Token::Word) => Some(5),
-        (Step::Open(..), Token::Open(_)) | (Step::Close(..), Token::Close(_)) => Some(2),
-        (Step::Comma(..), Token::Unknown) => Some(2),
-        _ => None,
+        (Step::Open(..), Token::Open(_)) | (Step::Close(..), Token::Close(_)) => 2,
+        (Step::Comma(..), Token::Unknown) => 2,
+        _ => deletion_cost(lexeme) + insertion_cost(step) - 1,
     }
 }
 

@@ -81,6 +81,11 @@ impl Choice {
     pub(crate) fn form(&self, word: &str) -> Option<&'static Form> {
         self.forms.iter().find(|form| form.word == word)
     }
+
+    /// Whether there are too many forms to tell from what follows which was meant.
+    pub(crate) const fn is_wide(&self) -> bool {
+        self.forms.len() > 2
+    }
 }
 
 /// A place in nested sequences.

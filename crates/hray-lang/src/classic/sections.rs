@@ -1,11 +1,12 @@
 //! The structure of a scene file: the header, the four sections, the end.
 
+use super::elements::Element;
 use super::grammar::{self, Item};
 use super::parser::{Halt, Parser};
 use super::repair::{self, WINDOW};
 use super::route::Route;
 use super::token::{Bracket, Lexeme, Token};
-use super::words::nearest;
+use super::words::{WORDS, nearest};
 use crate::diagnostic::Span;
 
 /// A section of the scene.
@@ -39,7 +40,33 @@ impl Section {
         }
     }
 
-    fn with_word(word: &str) -> Option<Self> {
+    /// Whether these tokens may follow its word.
+    fn may_go_on_with(self, tokens: &[Lexeme<'_>]) -> bool {
+        let element = match self {
+            Self::Camera | Self::Background => None,
+            Self::Objects => Some(Element::Object),
+            Self::Lights => Some(Element::Light),
+        };
+        match tokens {
+            [Lexeme { token: Token::Open(Bracket::Round), .. }, next] => {
+                element.is_none() || Element::with_word(next.text) == element
+            }
+            [Lexeme { token: Token::Close(Bracket::Curly), .. }, ..] => element.is_some(),
+            _ => false,
+        }
+    }
+
+    /// What it begins with, enough to tell it from the others.
+    const fn beginning(self) -> &'static [Item] {
+        match self {
+            Self::Camera => grammar::CAMERA,
+            Self::Background => grammar::BACKGROUND,
+            Self::Objects => grammar::OBJECTS_AHEAD,
+            Self::Lights => grammar::LIGHTS_AHEAD,
+        }
+    }
+
+    pub(crate) fn with_word(word: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|section| section.word() == word)
     }
 }
@@ -59,13 +86,12 @@ impl Parser<'_> {
             return Err(Halt::Stop);
         }
         self.header()?;
-        let mut met = Vec::new();
-        self.sections(&mut met)?;
-        self.complain_order(&met);
+        self.sections()?;
+        self.complain_order();
         if self.headless && self.cursor.now().token == Token::End {
             return Ok(());
         }
-        self.sequence(grammar::FOOTER, is_end).or_else(|halt| self.unless_stopped(halt))?;
+        self.sequence(grammar::FOOTER, is_end)?;
         if self.cursor.now().token != Token::End {
             self.complain_trailing();
         }
@@ -105,28 +131,19 @@ impl Parser<'_> {
         }
     }
 
-    fn sections(&mut self, met: &mut Vec<Met>) -> Result<(), Halt> {
-        loop {
-            let due = Section::ALL.into_iter().find(|section| !met.iter().any(|met| met.section == *section));
-            let now = self.cursor.now();
-            let section = match (self.section_here(), due) {
-                (Some((section, _)), _) => section,
-                (None, Some(due)) if now.token != Token::Close(Bracket::Square) => due,
-                _ => return Ok(()),
-            };
-            let span = self.section_here().map_or(now.span, |(_, span)| span);
-            if let Some(first) = met.iter().find(|met| met.section == section) {
-                self.complain_second(section, span, first.span);
-            } else {
-                met.push(Met { section, span });
+    fn sections(&mut self) -> Result<(), Halt> {
+        while let Some((section, span)) = self.next_section() {
+            match self.met.iter().find(|met| met.section == section).copied() {
+                Some(first) => self.complain_second(section, span, first.span),
+                None => self.met.push(Met { section, span }),
             }
-            self.in_last_section = section == Section::Lights && due.is_none_or(|due| due == section);
-            self.section_start = now.span;
+            self.in_last_section = section == Section::Lights && self.due().is_none();
+            self.section_start = self.cursor.now().span;
             let height = self.open.len();
             if let Err(halt) = self.section(section) {
                 self.unless_stopped(halt)?;
                 self.open.truncate(height);
-                if self.cursor.now().span == now.span {
+                if self.cursor.now().span == self.section_start {
                     self.cursor.bump();
                 }
                 self.skip_to(|parser| parser.at_section() || parser.at_scene_end());
@@ -135,52 +152,100 @@ impl Parser<'_> {
                 }
             }
         }
+        Ok(())
+    }
+
+    /// The sections that have not been met, in the order of the grammar.
+    pub(crate) fn unmet(&self) -> impl Iterator<Item = Section> {
+        let is_met = |section: &Section| self.met.iter().any(|met| met.section == *section);
+        Section::ALL.into_iter().filter(move |section| !is_met(section))
+    }
+
+    /// The first of them.
+    fn due(&self) -> Option<Section> {
+        self.unmet().next()
+    }
+
+    /// The section to read next, and where its word stands.
+    fn next_section(&self) -> Option<(Section, Span)> {
+        let now = self.cursor.now();
+        match (self.section_here(), self.due()) {
+            // A word can be wrong: what follows it counts, too.
+            (Some((found, span)), Some(due)) if found != due => {
+                let tokens = self.cursor.ahead(2 * WINDOW);
+                let misfit = |section: Section| repair::cost(&Route::new(section.beginning()), &tokens);
+                Some((if misfit(due) < misfit(found) { due } else { found }, span))
+            }
+            (None, Some(due)) if !self.at_last_bracket() => Some((due, now.span)),
+            (here, _) => here,
+        }
     }
 
     fn section(&mut self, section: Section) -> Result<(), Halt> {
-        let fixed: fn(&mut Self, &'static [Item]) -> Result<(), Halt> =
-            |parser, items| parser.sequence(items, is_section_start);
         match section {
             Section::Camera => {
-                fixed(self, grammar::CAMERA)?;
+                self.sequence(grammar::CAMERA, is_section_start)?;
                 self.build_camera();
             }
             Section::Background => {
-                fixed(self, grammar::BACKGROUND)?;
+                self.sequence(grammar::BACKGROUND, is_section_start)?;
                 self.build_background();
             }
             Section::Objects => {
-                let start = self.cursor.now().span;
-                self.sequence(grammar::OBJECTS, is_element)?;
-                self.note_list_start(section, start);
-                self.elements(section)?;
-                self.sequence(grammar::OBJECTS_END, is_section_start)?;
+                self.list(
+                    section,
+                    Element::Object,
+                    [grammar::OBJECTS, grammar::OBJECTS_END],
+                    is_section_start,
+                )?;
             }
             Section::Lights => {
-                let start = self.cursor.now().span;
-                self.sequence(grammar::LIGHTS, is_element)?;
-                self.note_list_start(section, start);
-                self.elements(section)?;
-                self.sequence(grammar::LIGHTS_END, is_scene_end)?;
+                self.list(section, Element::Light, [grammar::LIGHTS, grammar::LIGHTS_END], is_scene_end)?;
             }
         }
         Ok(())
     }
 
-    /// Which section starts here, if any, and where its word stands. Behind a bracket the word may be
-    /// misspelt.
+    fn list(
+        &mut self,
+        section: Section,
+        element: Element,
+        [start, end]: [&'static [Item]; 2],
+        follows: fn(&Lexeme<'_>) -> bool,
+    ) -> Result<(), Halt> {
+        self.sequence(start, is_element)?;
+        self.note_list_start(section, self.section_start.to(self.cursor.last().span));
+        loop {
+            self.elements(section, element)?;
+            let open = self.open.last().copied();
+            self.sequence(end, follows)?;
+            if !self.goes_on(element) {
+                return Ok(());
+            }
+            self.complain_closed_early(section, element);
+            self.open.extend(open);
+        }
+    }
+
+    /// Which section starts here, if any, and where its word stands. Behind a brace the word may be
+    /// misspelt; without one it counts only where it is due.
     pub(crate) fn section_here(&self) -> Option<(Section, Span)> {
         let now = self.cursor.now();
         match now.token {
-            Token::Word => Section::with_word(now.text).map(|section| (section, now.span)),
-            Token::Open(_) => {
-                let ahead = self.cursor.ahead(2);
-                let word = ahead.get(1).filter(|lexeme| lexeme.token == Token::Word)?;
-                let known = Section::ALL.iter().map(|section| section.word());
+            Token::Word => {
+                let due = self.due().filter(|section| section.word() == now.text)?;
+                due.may_go_on_with(self.cursor.ahead(3).get(1..)?).then_some((due, now.span))
+            }
+            Token::Open(bracket @ (Bracket::Curly | Bracket::Square)) => {
+                let word = self.cursor.after();
+                if word.token != Token::Word {
+                    return None;
+                }
                 let exact = Section::with_word(word.text);
                 let near = || {
-                    let curly = now.token == Token::Open(Bracket::Curly);
-                    nearest(word.text, known).filter(|_| curly).and_then(Section::with_word)
+                    let may_be = bracket == Bracket::Curly && !WORDS.contains(&word.text);
+                    let known = Section::ALL.iter().map(|section| section.word());
+                    nearest(word.text, known).filter(|_| may_be).and_then(Section::with_word)
                 };
                 exact.or_else(near).map(|section| (section, word.span))
             }
@@ -195,7 +260,12 @@ impl Parser<'_> {
 
     /// Whether the word `scene` stands here, or behind a bracket.
     fn at_scene(&self) -> bool {
-        self.cursor.ahead(2).iter().any(|lexeme| lexeme.is_word("scene"))
+        self.cursor.now().is_word("scene") || self.cursor.after().is_word("scene")
+    }
+
+    /// Whether the last bracket of a scene stands here.
+    pub(crate) fn at_last_bracket(&self) -> bool {
+        self.at_scene_end() && self.cursor.after().token == Token::End
     }
 
     /// Whether the last bracket of a scene may stand here.

@@ -1,7 +1,7 @@
 //! Reading one sequence of the grammar, token by token, and mending it where it does not fit.
 
 use super::grammar::{Item, NumberKind};
-use super::number::{read_integer, read_real};
+use super::number::{read_integer, read_real, too_large};
 use super::parser::{Halt, MOST_ERRORS_IN_SEQUENCE, OpenBracket, Parser};
 use super::repair::{self, Edit, WINDOW};
 use super::route::{Route, Slot, Step};
@@ -10,7 +10,7 @@ use crate::diagnostic::Span;
 
 impl<'s> Parser<'s> {
     /// Reads a sequence; `follows` says which tokens may come after it. Its values are in `self.values`
-    /// afterwards, and mean something where no error was reported.
+    /// afterwards, and mean something where no error was reported. Where it comes to a halt, an error was.
     pub(crate) fn sequence(
         &mut self,
         items: &'static [Item],
@@ -64,36 +64,27 @@ impl<'s> Parser<'s> {
 
     fn take_number(&mut self, slot: Slot, lexeme: Lexeme<'_>) {
         let read = match slot.kind() {
-            NumberKind::Real => read_real(lexeme.text, lexeme.span).map(|value| self.values.push_real(value)),
+            NumberKind::Real => read_real(lexeme.text).map(|value| self.values.push_real(value)),
             NumberKind::Integer => {
-                let read = read_integer(lexeme.text, lexeme.span);
-                read.map(|value| self.values.push_integer(value, lexeme.span))
+                read_integer(lexeme.text).map(|value| self.values.push_integer(value, lexeme.span))
             }
         };
-        if let Err(error) = read {
-            self.report(error);
+        if read.is_none() {
+            self.report(too_large(slot.kind(), lexeme.text, lexeme.span));
         }
     }
 
     /// Reports a token that is not what is due and makes the cheapest change that lets reading go on.
-    fn mend(
-        &mut self,
-        step: Step,
-        route: &mut Route,
-        follows: fn(&Lexeme<'_>) -> bool,
-    ) -> Result<(), Halt> {
+    fn mend(&mut self, step: Step, route: &mut Route, follows: fn(&Lexeme<'_>) -> bool) -> Result<(), Halt> {
         if self.mend_decimal_comma(step, route) {
             return Ok(());
         }
         let tokens = self.cursor.ahead(WINDOW);
-        let Some(edits) = repair::plan(route, &tokens, follows) else {
+        let plan = repair::plan(route, &tokens, follows).filter(|edits| !edits.is_empty());
+        let Some(edits) = plan else {
             self.complain_unexpected(step);
             return Err(Halt::Lost);
         };
-        if edits.is_empty() {
-            // The search has nothing to say only where the route ends, and then no step is due.
-            return Err(Halt::Lost);
-        }
         for group in edits.chunk_by(same_kind) {
             self.complain(group, route);
             for edit in group {
@@ -115,7 +106,8 @@ impl<'s> Parser<'s> {
             Edit::Delete => drop(self.cursor.bump()),
             Edit::Replace(step) => {
                 let lexeme = self.cursor.bump();
-                self.keep_brackets(step, Some(lexeme.span));
+                let is_bracket = matches!(lexeme.token, Token::Open(_));
+                self.keep_brackets(step, is_bracket.then_some(lexeme.span));
                 route.advance();
             }
             Edit::ReplaceTuple(_) => {

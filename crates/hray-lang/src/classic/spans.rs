@@ -18,9 +18,9 @@ pub struct Spans {
     pub camera: Span,
     /// The background section.
     pub background: Span,
-    /// The word `objects`.
+    /// The start of the objects section, up to its word.
     pub objects: Span,
-    /// The word `lights`.
+    /// The start of the lights section, up to its word.
     pub lights: Span,
     /// Each primitive, from its first to its last bracket.
     pub primitives: Vec<Span>,
@@ -55,9 +55,12 @@ impl Spans {
     /// The shape of a primitive: `sphere 40.0 (0.0,0.0,-150.0)`.
     #[must_use]
     pub fn shape(source: &str, primitive: Span) -> Span {
-        // "(object (", and then the shape up to the second bracket that closes something.
         let mut cursor = Cursor::within(source, primitive);
-        let word = [cursor.bump(), cursor.bump(), cursor.bump(), cursor.bump()][3].span;
+        // "(object (" comes before it, and it ends with the first closing bracket: that of its point or plane.
+        for _ in 0..3 {
+            cursor.bump();
+        }
+        let word = cursor.bump().span;
         while !matches!(cursor.now().token, Token::End | Token::Close(_)) {
             cursor.bump();
         }

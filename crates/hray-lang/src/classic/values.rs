@@ -66,9 +66,4 @@ impl Reader<'_> {
     pub(crate) fn color(&mut self) -> Rgb {
         Rgb::new(self.real(), self.real(), self.real())
     }
-
-    /// Whether everything has been taken.
-    pub(crate) fn is_empty(&self) -> bool {
-        self.forms.is_empty() && self.reals.is_empty() && self.integers.is_empty()
-    }
 }

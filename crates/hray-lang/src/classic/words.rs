@@ -33,7 +33,10 @@ pub(crate) const WORDS: &[&str] = &[
 
 /// The candidate that `word` was probably meant to be: the same but for upper and lower case, a slip of the
 /// finger away, or a part of it (`marble` for `perlinMarble`).
-pub(crate) fn nearest(word: &str, candidates: impl Iterator<Item = &'static str> + Clone) -> Option<&'static str> {
+pub(crate) fn nearest(
+    word: &str,
+    candidates: impl Iterator<Item = &'static str> + Clone,
+) -> Option<&'static str> {
     if word.len() > LONGEST {
         return None;
     }

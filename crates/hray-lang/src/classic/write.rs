@@ -19,7 +19,12 @@ pub fn write(description: &Description) -> String {
 fn write_to(out: &mut impl fmt::Write, description: &Description) -> fmt::Result {
     let Description { resolution, max_depth, scene } = description;
     let Scene { camera, background, primitives, lights } = scene;
-    writeln!(out, "renderDescr ( resolution ({},{}) ) {max_depth} [", resolution.width(), resolution.height())?;
+    writeln!(
+        out,
+        "renderDescr ( resolution ({},{}) ) {max_depth} [",
+        resolution.width(),
+        resolution.height()
+    )?;
     let [width, height] = camera.window;
     writeln!(out, "scene {{ camera {} ({width},{height}) }}", Vector(camera.eye))?;
     writeln!(out, "      {{ background {} }}", Color(*background))?;

@@ -5,6 +5,7 @@
 
 use super::Span;
 use super::locate::Locations;
+use std::borrow::Cow;
 use std::ops::Range;
 
 /// A line up to this many bytes is shown whole.
@@ -70,7 +71,7 @@ impl Excerpt {
         let Some((_, lines)) = between.split_once('\n') else { return };
         for line in lines.split_terminator('\n') {
             let shown = line.get(..floor(line, SHORT_LINE)).unwrap_or_default();
-            self.text.push_str(shown.trim_end());
+            self.text.push_str(&printable(shown.trim_end()));
             self.text.push('\n');
         }
     }
@@ -82,12 +83,15 @@ impl Excerpt {
                 self.text.push_str(ELISION);
             }
             let shown = self.text.len();
-            let place = |offset: usize| shown + offset.clamp(window.start, window.end) - window.start;
+            let place = |offset: usize| {
+                let before = Span::new(window.start, offset.clamp(window.start, window.end));
+                shown + printable(before.text(source)).len()
+            };
             let next = line.windows.get(i + 1).map_or(usize::MAX, |next| next.start);
             while let Some((index, span)) = labels.next_if(|(_, span)| span.start < next) {
-                self.labels.push((*index, place(span.start)..place(shown_end(*span))));
+                self.labels.push((*index, place(span.start)..place(shown_end(source, *span))));
             }
-            self.text.push_str(source.get(window.clone()).unwrap_or_default());
+            self.text.push_str(&printable(window.text(source)));
         }
         if line.windows.last().is_some_and(|window| window.end < line.end) {
             self.text.push_str(ELISION);
@@ -96,9 +100,9 @@ impl Excerpt {
     }
 }
 
-/// Where the underline of a span ends at the latest.
-fn shown_end(span: Span) -> usize {
-    span.end.min(span.start + LONGEST_LABEL)
+/// Where the underline of a span ends.
+fn shown_end(source: &str, span: Span) -> usize {
+    span.end.min(floor(source, span.start + LONGEST_LABEL))
 }
 
 /// What is shown of one line.
@@ -107,7 +111,7 @@ struct Line {
     /// Its end, or a place beyond everything that is shown.
     end: usize,
     /// The parts that are shown, in order and apart.
-    windows: Vec<Range<usize>>,
+    windows: Vec<Span>,
 }
 
 impl Line {
@@ -121,18 +125,28 @@ impl Line {
         let end = if source.get(start..end).is_some_and(|text| text.ends_with('\r')) { end - 1 } else { end };
         let end = end.max(start);
         if ends_here && end - start <= SHORT_LINE {
-            return Self { start, end, windows: vec![start..end] };
+            return Self { start, end, windows: vec![Span::new(start, end)] };
         }
-        let mut windows: Vec<Range<usize>> = Vec::new();
+        let mut windows: Vec<Span> = Vec::new();
         for (_, span) in labels {
             let from = floor(source, span.start.saturating_sub(SURROUNDINGS)).max(start);
-            let to = floor(source, shown_end(*span) + SURROUNDINGS).clamp(from, end.max(from));
+            let to = floor(source, shown_end(source, *span) + SURROUNDINGS).clamp(from, end.max(from));
             match windows.last_mut() {
                 Some(window) if from <= window.end + ELISION.len() => window.end = window.end.max(to),
-                _ => windows.push(from..to),
+                _ => windows.push(Span::new(from, to)),
             }
         }
         Self { start, end, windows }
+    }
+}
+
+/// Text without the control characters that the layout lets through: those of ISO 6429, such as U+009B.
+fn printable(text: &str) -> Cow<'_, str> {
+    let is_control = |c: char| ('\u{80}'..='\u{9f}').contains(&c);
+    if text.contains(is_control) {
+        Cow::Owned(text.replace(is_control, "\u{fffd}"))
+    } else {
+        Cow::Borrowed(text)
     }
 }
 
@@ -163,7 +177,9 @@ mod tests {
     #[test]
     fn of_a_long_line_the_surroundings_of_each_label_are_shown() {
         let source = format!("{}here{}there{}", "a".repeat(5000), "b".repeat(5000), "c".repeat(5000));
-        let [shown] = &show(&source, &[Span::new(5000, 5004), Span::new(10_004, 10_009)])[..] else { panic!() };
+        let [shown] = &show(&source, &[Span::new(5000, 5004), Span::new(10_004, 10_009)])[..] else {
+            panic!()
+        };
         assert!(shown.1.len() < 300, "{}", shown.1);
         assert_eq!(shown.2, ["here", "there"]);
         assert!(shown.1.starts_with("...a") && shown.1.ends_with("c...\n"), "{}", shown.1);

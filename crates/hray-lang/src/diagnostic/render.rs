@@ -16,10 +16,12 @@ const LONGEST_PATCH: usize = 200;
 /// size only the lines that carry a label are copied, and of long lines only the surroundings of the labels.
 #[must_use]
 pub fn render(diagnostics: &[Diagnostic], file_name: &str, source: &str, color: bool) -> String {
-    let offsets = diagnostics.iter().flat_map(Diagnostic::spans).map(|span| fit(source, span).start).collect();
+    let offsets =
+        diagnostics.iter().flat_map(Diagnostic::spans).map(|span| fit(source, span).start).collect();
     // The excerpts are cut to size already, so no line is to be cut again.
     let renderer = if color { Renderer::styled() } else { Renderer::plain() }.term_width(10_000);
-    let page = Page { source, file_name: &clean(file_name), locations: Locations::new(source, offsets), renderer };
+    let page =
+        Page { source, file_name: &clean(file_name), locations: Locations::new(source, offsets), renderer };
     let mut text = String::new();
     for diagnostic in diagnostics {
         text.push_str(&page.render(diagnostic));
@@ -139,12 +141,22 @@ fn fit(source: &str, span: Span) -> Span {
     Span::new(start, end)
 }
 
-/// Text for one line of a terminal: what could move the cursor or change colours is replaced.
+/// Text for one line of a terminal: what could move the cursor, change colours or turn the direction of
+/// writing is replaced.
 fn clean(text: &str) -> String {
-    text.chars().map(|c| if c.is_control() { '\u{fffd}' } else { c }).collect()
+    text.chars().map(|c| if is_command(c) { '\u{fffd}' } else { c }).collect()
 }
 
 /// The same for text that may have several lines.
 fn clean_lines(text: &str) -> String {
-    text.chars().map(|c| if c.is_control() && c != '\n' { '\u{fffd}' } else { c }).collect()
+    text.chars().map(|c| if is_command(c) && c != '\n' { '\u{fffd}' } else { c }).collect()
+}
+
+/// Whether a terminal could take a character for a command.
+fn is_command(character: char) -> bool {
+    let turns = matches!(
+        character,
+        '\u{061c}' | '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}'
+    );
+    turns || character.is_control()
 }

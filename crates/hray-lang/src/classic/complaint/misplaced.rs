@@ -2,8 +2,8 @@
 
 use crate::classic::elements::Element;
 use crate::classic::parser::Parser;
-use crate::classic::sections::{Met, Section};
-use crate::classic::token::quoted;
+use crate::classic::sections::Section;
+use crate::classic::token::{Lexeme, Token, quoted};
 use crate::diagnostic::{Diagnostic, Span};
 
 /// The smallest scene that shows something.
@@ -21,13 +21,16 @@ const ORDER: &str = "the sections of a scene are camera, background, objects and
 impl Parser<'_> {
     pub(crate) fn complain_empty(&mut self) {
         let span = Span::at(self.cursor.now().span.end);
-        let error = Diagnostic::error("empty-file", "the file contains no scene", span, "expected `renderDescr`");
+        let error =
+            Diagnostic::error("empty-file", "the file contains no scene", span, "expected `renderDescr`");
         self.report(error.with_note(MINIMAL));
     }
 
     pub(crate) fn complain_no_scene(&mut self) {
         let now = self.cursor.now();
-        let label = format!("a scene begins with `renderDescr`, not with {}", now.describe());
+        let rest = self.source.get(now.span.start..).unwrap_or_default();
+        let found = quoted(rest.split_whitespace().next().unwrap_or_default());
+        let label = format!("a scene begins with `renderDescr`, not with {found}");
         let error = Diagnostic::error("no-scene", "this is not a scene", now.span, label);
         self.report(error.with_note(MINIMAL));
     }
@@ -39,7 +42,12 @@ impl Parser<'_> {
             self.cursor.bump();
         }
         let span = first.to(self.cursor.last().span);
-        let error = Diagnostic::error("text-before-scene", "text before the scene", span, "a scene begins with `renderDescr`");
+        let error = Diagnostic::error(
+            "text-before-scene",
+            "text before the scene",
+            span,
+            "a scene begins with `renderDescr`",
+        );
         self.report(error.with_suggestion(span, "", "remove it"));
     }
 
@@ -48,7 +56,9 @@ impl Parser<'_> {
         let now = self.cursor.now();
         let label = "expected the resolution and the recursion depth before this";
         let error = Diagnostic::error("missing-header", "the scene has no header", now.span, label);
-        self.report(error.with_help("a scene is written `renderDescr ( resolution (400,300) ) 3 [ scene ... ]`"));
+        self.report(
+            error.with_help("a scene is written `renderDescr ( resolution (400,300) ) 3 [ scene ... ]`"),
+        );
         self.headless = true;
     }
 
@@ -59,16 +69,20 @@ impl Parser<'_> {
     }
 
     /// Sections that are missing or in another order.
-    pub(crate) fn complain_order(&mut self, met: &[Met]) {
-        for section in Section::ALL {
-            let is_stray = section == Section::Lights && self.strays;
-            if !is_stray && !met.iter().any(|met| met.section == section) {
-                self.complain_missing_section(section, met);
+    pub(crate) fn complain_order(&mut self) {
+        for section in self.unmet().collect::<Vec<_>>() {
+            // Lights among the objects have been reported; there need not be others.
+            if section != Section::Lights || !self.strays {
+                self.complain_missing_section(section);
             }
         }
-        let late = met.windows(2).find(|pair| matches!(pair, [a, b] if b.section < a.section));
-        if let Some([before, late]) = late {
-            let earlier = met.iter().find(|met| met.section > late.section).unwrap_or(before);
+        let late = self.met.windows(2).find_map(|pair| match pair {
+            [before, late] if late.section < before.section => Some(*late),
+            _ => None,
+        });
+        if let Some(late) = late
+            && let Some(earlier) = self.met.iter().find(|met| met.section > late.section)
+        {
             let (word, other) = (late.section.word(), earlier.section.word());
             let message = format!("the {word} section comes too late");
             let label = format!("{word} belongs before {other}");
@@ -78,9 +92,9 @@ impl Parser<'_> {
     }
 
     /// The place is where the section belongs.
-    fn complain_missing_section(&mut self, section: Section, met: &[Met]) {
+    fn complain_missing_section(&mut self, section: Section) {
         let word = section.word();
-        let next = met.iter().find(|met| met.section > section);
+        let next = self.met.iter().find(|met| met.section > section);
         let span = next.map_or(self.cursor.now().span, |next| next.span);
         let message = format!("the scene has no {word} section");
         let label = format!("expected the {word} section before this");
@@ -96,16 +110,62 @@ impl Parser<'_> {
         self.report(error.with_secondary(self.cursor.last().span, "the scene ends here"));
     }
 
+    /// An element follows the brace that closes its section.
+    pub(crate) fn complain_closed_early(&mut self, section: Section, element: Element) {
+        let (now, brace) = (self.cursor.now(), self.cursor.last());
+        let (word, noun) = (section.word(), element.noun());
+        let message = format!("{word} after the end of the {word} section");
+        let label = format!("this {noun} is outside of the section");
+        let error = Diagnostic::error("closed-early", message, now.span, label)
+            .with_secondary(brace.span, format!("this closes the {word} section"));
+        self.report(error.with_suggestion(brace.span, "", "remove the bracket"));
+    }
+
+    /// The word of the section once more.
+    pub(crate) fn complain_doubled(&mut self, now: &Lexeme<'_>) {
+        let message = format!("unexpected {}", now.name());
+        let label = "this section has begun already";
+        let error = Diagnostic::error("unexpected-token", message, now.span, label);
+        self.report(error.with_suggestion(now.span, "", "remove it"));
+        self.cursor.bump();
+    }
+
+    /// Something between the elements of a list.
+    pub(crate) fn complain_between(&mut self, due: Element) {
+        let now = self.cursor.now();
+        let noun = due.noun();
+        let label = format!("expected `(` of another {noun}, or `}}` to close this section");
+        let message = match now.token {
+            Token::Close(_) => format!("one `{}` too many", now.text),
+            _ => format!("unexpected {} between {noun}s", now.name()),
+        };
+        let error = Diagnostic::error("unexpected-token", message, now.span, label);
+        let error = match now.token {
+            Token::Comma => error.with_note(format!("{noun}s follow each other without commas")),
+            _ => error,
+        };
+        let error = match now.token {
+            Token::Comma | Token::Close(_) | Token::Unknown => {
+                error.with_suggestion(now.span, "", "remove it")
+            }
+            _ => error,
+        };
+        self.report(error);
+        self.cursor.bump();
+    }
+
     /// An element of the other list.
     pub(crate) fn complain_stray(&mut self, element: Element, section: Section) {
-        let ahead = self.cursor.ahead(2);
-        let Some(word) = ahead.last() else { return };
+        let word = self.cursor.after();
         let noun = element.noun();
         let message = format!("a {noun} among the {}", section.word());
         let message = if noun == "object" { message.replacen("a ", "an ", 1) } else { message };
         let label = format!("{} belongs in the section `{{ {noun}s ... }}`", quoted(word.text));
         let error = Diagnostic::error("stray-element", message, word.span, label);
-        let help = format!("close the {} section with `}}` before the first {noun}, or move the {noun}s", section.word());
+        let help = match element {
+            Element::Light => "put `} { lights` before the first light, or move the lights to their section",
+            Element::Object => "move the objects to their section",
+        };
         self.report(error.with_help(help));
     }
 }

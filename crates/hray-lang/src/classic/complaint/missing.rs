@@ -34,17 +34,17 @@ impl Parser<'_> {
         let label = format!("expected `,` between {} and {}", component(index), component(index + 1));
         let error = Diagnostic::error("missing-comma", message, span, label);
         let (changed, text) = self.with_commas(tuple.components.len() - index);
-        self.commas_reported = changed.end.max(now.span.end);
         self.report(error.with_suggestion(changed, text, "separate the components by commas"));
     }
 
     /// The source from here on with commas between the remaining `count` components of a tuple, as far as
-    /// that changes it.
-    fn with_commas(&self, count: usize) -> (Span, String) {
+    /// that changes it. They count as reported.
+    fn with_commas(&mut self, count: usize) -> (Span, String) {
         let start = self.gap().start;
         let (mut text, mut end) = (String::new(), start);
         let (mut pending, mut after_number) = (start, true);
         for lexeme in self.cursor.ahead(2 * count) {
+            self.commas_reported = lexeme.span.end;
             match lexeme.token {
                 Token::Unknown => {
                     text.push_str(Span::new(end, pending).text(self.source));
@@ -113,7 +113,7 @@ impl Parser<'_> {
         let Some(first) = parts.first() else { return };
         let names: Vec<&str> = parts.iter().map(|part| part.name.as_str()).collect();
         let message = format!("missing {} before {}", join(&names, "and"), now.describe());
-        let comma = if first.expected.contains(',') { "," } else { "" };
+        let comma = if first.expected.contains([',', ':']) { "," } else { "" };
         let label = format!("expected {}{comma} before this", first.expected);
         let is_number = matches!(edits.first(), Some(Edit::Insert(Step::Number(_)) | Edit::InsertTuple(_)));
         let code = match edits.first() {
@@ -177,5 +177,5 @@ pub(super) fn numbers_note(route: &Route) -> Option<String> {
     let numbers = route.numbers_here();
     let names: Vec<String> =
         numbers.iter().map(|number| format!("{} ({})", number.what, number.kind.name())).collect();
-    (names.len() > 1).then(|| format!("here stand {}", join(&names, "and")))
+    (names.len() > 1).then(|| format!("the numbers here are, in this order, {}", join(&names, "and")))
 }

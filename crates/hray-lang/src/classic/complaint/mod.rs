@@ -2,8 +2,8 @@
 //!
 //! One file per way of being wrong: something is missing, superfluous, or stands for something else.
 
-mod missing;
 mod misplaced;
+mod missing;
 mod replaced;
 mod surplus;
 
@@ -11,6 +11,8 @@ use super::grammar::{Choice, Form, Item, NumberKind};
 use super::parser::{Halt, Parser};
 use super::repair::Edit;
 use super::route::{Route, Slot, Step};
+use super::sections::Section;
+use super::token::Token;
 use crate::diagnostic::{Diagnostic, Span};
 
 /// How many of the brackets that are still open are pointed at.
@@ -25,7 +27,10 @@ impl Parser<'_> {
             [Edit::Delete, ..] => self.complain_surplus(edits.len(), step, route),
             [Edit::Replace(step)] => self.complain_replaced(step),
             [Edit::ReplaceTuple(step)] => self.complain_unexpected(step),
-            [Edit::ReplaceForm(choice, form)] => self.complain_word(form.word, Some(choice)),
+            [Edit::ReplaceForm(choice, form)] if self.cursor.now().token == Token::Word => {
+                self.complain_word(form.word, Some(choice));
+            }
+            [Edit::ReplaceForm(choice, _)] => self.complain_unexpected(Step::Choice(choice)),
             [Edit::SkipForm(choice)] => self.complain_unknown_form(choice),
             _ => self.complain_missing(edits, route),
         }
@@ -36,7 +41,11 @@ impl Parser<'_> {
         let now = self.cursor.now();
         let message = format!("expected {}, found {}", step.brief(), now.describe());
         let label = format!("expected {}", step.expected());
-        self.report(Diagnostic::error("unexpected-token", message, now.span, label));
+        let error = Diagnostic::error("unexpected-token", message, now.span, label);
+        self.report(match step {
+            Step::Choice(choice) if choice.is_wide() => error.with_note(choice.explanation()),
+            _ => error,
+        });
     }
 
     /// Reports that the file ends inside a sequence.
@@ -57,7 +66,7 @@ impl Parser<'_> {
         );
         let open = self.open.iter().rev().filter_map(|open| open.span.map(|span| (open, span)));
         for (open, span) in open.clone().take(MOST_OPEN_SHOWN) {
-            let text = format!("this `{}` opens {} and is not closed", open.bracket.opening(), open.what);
+            let text = format!("this `{}` opens {} and is not closed", span.text(self.source), open.what);
             error = error.with_secondary(span, text);
         }
         if only_brackets && self.in_last_section {
@@ -66,7 +75,12 @@ impl Parser<'_> {
             let text = format!("close what is open: `{brackets}`");
             error = error.with_suggestion(end, format!(" {brackets}"), text);
         }
-        self.report(error);
+        let unmet: Vec<&str> = self.unmet().map(Section::word).collect();
+        self.report(match unmet[..] {
+            [] => error,
+            [one] => error.with_note(format!("the {one} section is still to come")),
+            _ => error.with_note(format!("the sections {} are still to come", join(&unmet, "and"))),
+        });
         Halt::Stop
     }
 
@@ -74,7 +88,7 @@ impl Parser<'_> {
     fn with_opener(&self, error: Diagnostic) -> Diagnostic {
         match self.open.last() {
             Some(open) if let Some(span) = open.span => {
-                error.with_secondary(span, format!("this `{}` opens {}", open.bracket.opening(), open.what))
+                error.with_secondary(span, format!("this `{}` opens {}", span.text(self.source), open.what))
             }
             _ => error,
         }
@@ -112,6 +126,7 @@ impl Step {
                 format!("`,` and the {next} of {}", tuple.what)
             }
             Self::Number(slot) => slot.expected(),
+            Self::Choice(choice) if choice.is_wide() => format!("a {}", choice.what),
             Self::Choice(choice) => format!("a {}: {}", choice.what, choice.alternatives()),
         }
     }
@@ -138,6 +153,11 @@ impl Choice {
     pub(crate) fn alternatives(&self) -> String {
         let words: Vec<String> = self.forms.iter().map(|form| format!("`{}`", form.word)).collect();
         join(&words, "or")
+    }
+
+    /// "a shape is `sphere` or `plane`".
+    pub(crate) fn explanation(&self) -> String {
+        format!("a {} is {}", self.what, self.alternatives())
     }
 }
 

@@ -16,10 +16,10 @@ impl<'s> Parser<'s> {
         match (step, now.token) {
             (Step::Number(slot), Token::Integer | Token::Real) => self.complain_kind(slot, &now),
             (Step::Number(slot), Token::OddNumber) => self.complain_odd_number(slot, &now),
-            (Step::Word(word), _) => self.complain_word(word, None),
-            (Step::Open(bracket, ..), _) => self.complain_bracket(step, bracket.opening()),
-            (Step::Close(bracket, ..), _) => self.complain_bracket(step, bracket.closing()),
-            (Step::Comma(tuple, index), _) => self.complain_commas(tuple, index),
+            (Step::Word(word), Token::Word) => self.complain_word(word, None),
+            (Step::Open(bracket, ..), Token::Open(_)) => self.complain_bracket(step, bracket.opening()),
+            (Step::Close(bracket, ..), Token::Close(_)) => self.complain_bracket(step, bracket.closing()),
+            (Step::Comma(tuple, index), Token::Unknown) => self.complain_commas(tuple, index),
             _ => self.complain_unexpected(step),
         }
     }
@@ -40,7 +40,7 @@ impl<'s> Parser<'s> {
         let error = others.fold(error, |error, other| error.with_secondary(other.span, ""));
         let span = first.span.to(last.span);
         self.report(match self.with_rewritten(&numbers, slot.kind()) {
-            Some(text) => error.with_suggestion(span, text, advice(slot.kind())),
+            Some(text) => error.with_suggestion(span, text, advice(slot.kind(), numbers.len())),
             None => error.with_help(format!("round {} to a whole number", quoted(first.text))),
         });
     }
@@ -103,15 +103,14 @@ impl<'s> Parser<'s> {
         self.report(error.with_suggestion(now.span, meant, words));
     }
 
-    /// A word stands where a form is due, and it is like none of them.
-    pub(super) fn complain_unknown_form(&mut self, choice: &Choice) {
+    /// Something stands where a form is due, and it is like none of them.
+    pub(super) fn complain_unknown_form(&mut self, choice: &'static Choice) {
         let now = self.cursor.now();
-        let (code, message) = if WORDS.contains(&now.text) {
-            ("wrong-word", format!("expected a {}, found the word {}", choice.what, quoted(now.text)))
-        } else {
-            ("unknown-word", format!("unknown {} {}", choice.what, quoted(now.text)))
-        };
-        self.report(form_error(code, message, now.span, choice));
+        if now.token != Token::Word || WORDS.contains(&now.text) {
+            return self.complain_unexpected(Step::Choice(choice));
+        }
+        let message = format!("unknown {} {}", choice.what, quoted(now.text));
+        self.report(form_error("unknown-word", message, now.span, choice));
     }
 
     /// A bracket of the wrong kind.
@@ -129,7 +128,11 @@ impl<'s> Parser<'s> {
 
     /// A number with a decimal comma, or a tuple full of them. Such a text would otherwise be taken for too
     /// many integers. Returns whether it was one; it is then passed.
-    pub(crate) fn mend_decimal_comma(&mut self, step: Step, route: &mut crate::classic::route::Route) -> bool {
+    pub(crate) fn mend_decimal_comma(
+        &mut self,
+        step: Step,
+        route: &mut crate::classic::route::Route,
+    ) -> bool {
         let Step::Number(slot) = step else { return false };
         let count = match slot {
             Slot::Single(_) => 1,
@@ -162,9 +165,9 @@ impl<'s> Parser<'s> {
 /// An error about the word of a form, with all words that could stand there.
 fn form_error(code: &'static str, message: String, span: Span, choice: &Choice) -> Diagnostic {
     let alternatives = choice.alternatives();
-    if choice.forms.len() > 2 {
+    if choice.is_wide() {
         let error = Diagnostic::error(code, message, span, format!("expected a {}", choice.what));
-        return error.with_note(format!("a {} is {alternatives}", choice.what));
+        return error.with_note(choice.explanation());
     }
     Diagnostic::error(code, message, span, format!("expected {alternatives}"))
 }
@@ -206,7 +209,9 @@ fn slot_or_tuple(slot: Slot) -> String {
 fn kind_error(slot: Slot, first: &Lexeme<'_>, count: usize) -> Diagnostic {
     let found = quoted(first.text);
     let (code, other, rule) = match slot.kind() {
-        NumberKind::Real => ("integer-for-real", "integer", "a real number has a point, with digits on both sides"),
+        NumberKind::Real => {
+            ("integer-for-real", "integer", "a real number has a point, with digits on both sides")
+        }
         NumberKind::Integer => ("real-for-integer", "real number", "an integer has no point"),
     };
     let found = match count {
@@ -224,9 +229,11 @@ fn kind_error(slot: Slot, first: &Lexeme<'_>, count: usize) -> Diagnostic {
     Diagnostic::error(code, message, first.span, rule)
 }
 
-const fn advice(kind: NumberKind) -> &'static str {
-    match kind {
-        NumberKind::Real => "write it with a point",
-        NumberKind::Integer => "write it without a point",
+const fn advice(kind: NumberKind, count: usize) -> &'static str {
+    match (kind, count) {
+        (NumberKind::Real, 1) => "write it with a point",
+        (NumberKind::Real, _) => "write them with a point",
+        (NumberKind::Integer, 1) => "write it without a point",
+        (NumberKind::Integer, _) => "write them without a point",
     }
 }

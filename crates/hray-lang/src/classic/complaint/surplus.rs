@@ -34,8 +34,12 @@ impl Parser<'_> {
             let label = format!("expected {}", step.expected());
             let error = Diagnostic::error("unexpected-token", message, span, label);
             match first.token {
-                Token::Comma => error.with_note("commas stand only between numbers in brackets, such as (0.8,0.8,0.8)"),
-                Token::Integer | Token::Real => numbers_note(route).into_iter().fold(error, Diagnostic::with_note),
+                Token::Comma => {
+                    error.with_note("commas stand only between numbers in brackets, such as (0.8,0.8,0.8)")
+                }
+                Token::Integer | Token::Real if !matches!(step, Step::Choice(_)) => {
+                    numbers_note(route).into_iter().fold(error, Diagnostic::with_note)
+                }
                 _ => error,
             }
         };
