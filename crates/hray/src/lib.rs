@@ -64,6 +64,7 @@ pub use hray_io::{
     Destination, Input, InputError, MAX_SOURCE_BYTES, OutputError, PictureFormat, Quoted, TablesError,
     UnknownFormat, parse_noise_tables, read_noise_tables, same_file,
 };
+pub use hray_lang::classic::write as write_classic;
 pub use hray_lang::diagnostic::{Diagnostic, Severity};
 pub use hray_lang::lint::{ALL_LINTS, LINTS, Level, Lint, LintLevels, UnknownLint};
 pub use hray_render::{Control, MAX_SAMPLES, RayCounts, Region, RegionError, Settings, Statistics};
