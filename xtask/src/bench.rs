@@ -38,7 +38,10 @@ pub fn run(runs: usize) -> Result<()> {
     let classic = classic.ok_or("set HRAY_CLASSIC to the folder that holds the classic scenes")?;
     let hray = build_hray()?;
     let output = std::env::temp_dir().join(format!("hray-bench-{}.ppm", std::process::id()));
-    println!("{:<22}{:>9} {:>11} {:>7} {:>11} {:>7}", "scene", "2005", "1 thread", "ratio", "2 threads", "ratio");
+    println!(
+        "{:<22}{:>9} {:>11} {:>7} {:>11} {:>7}",
+        "scene", "2005", "1 thread", "ratio", "2 threads", "ratio"
+    );
     for (name, original) in ORIGINAL {
         let mut times = [Vec::new(), Vec::new()];
         for _ in 0..runs {

@@ -29,5 +29,6 @@ pub fn run() -> Result<()> {
     }
     // Only a leftover in the folder for such; nothing depends on its removal.
     let _ = std::fs::remove_file(&scratch);
-    std::fs::write(folder.join("SHA256SUMS"), sums).map_err(|e| format!("cannot write examples/SHA256SUMS: {e}"))
+    std::fs::write(folder.join("SHA256SUMS"), sums)
+        .map_err(|e| format!("cannot write examples/SHA256SUMS: {e}"))
 }

@@ -1,6 +1,6 @@
 //! Project chores, run as `cargo xtask NAME`.
 //!
-//! [`tidy`] keeps the documents true, [`bless`] renders the examples anew, [`bench`] times the program.
+//! [`tidy`] keeps the documents true, [`bless`] renders the examples anew, [`mod@bench`] times the program.
 
 #![allow(clippy::print_stdout, reason = "chores talk to the person who runs them")]
 

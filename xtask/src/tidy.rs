@@ -18,9 +18,11 @@ pub fn run() -> Result<()> {
     let mut complaints = Vec::new();
     for document in DOCUMENTS {
         let text = read(&root().join(document))?;
-        complaints.extend(missing_paths(&text, &root()).into_iter().map(|path| {
-            format!("{document} names `{path}`, which does not exist")
-        }));
+        complaints.extend(
+            missing_paths(&text, &root())
+                .into_iter()
+                .map(|path| format!("{document} names `{path}`, which does not exist")),
+        );
     }
     let allowed = allowed_edges(&read(&root().join("ARCHITECTURE.md"))?)?;
     complaints.extend(forbidden_edges(&allowed, &actual_edges()?));
@@ -107,12 +109,14 @@ pub fn forbidden_edges(allowed: &Edges, actual: &Edges) -> Vec<String> {
         match allowed.get(from) {
             None => complaints.push(format!("the table of edges in ARCHITECTURE.md lacks the crate {from}")),
             Some(may) => complaints.extend(
-                to.difference(may).map(|to| format!("{from} depends on {to}, which ARCHITECTURE.md does not allow")),
+                to.difference(may)
+                    .map(|to| format!("{from} depends on {to}, which ARCHITECTURE.md does not allow")),
             ),
         }
     }
     let gone = allowed.keys().filter(|name| !actual.contains_key(*name));
-    complaints.extend(gone.map(|name| format!("ARCHITECTURE.md names the crate {name}, which does not exist")));
+    complaints
+        .extend(gone.map(|name| format!("ARCHITECTURE.md names the crate {name}, which does not exist")));
     complaints
 }
 

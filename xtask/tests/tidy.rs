@@ -13,7 +13,8 @@ fn the_workspace_is_tidy() {
 #[test]
 fn a_path_that_does_not_exist_is_found() {
     let root = xtask::root();
-    let text = "See `xtask/src/lib.rs`, `xtask/src/gone.rs` and [this](docs/gone.md), but not `f(x)` or `a -> b`.";
+    let text =
+        "See `xtask/src/lib.rs`, `xtask/src/gone.rs` and [this](docs/gone.md), but not `f(x)` or `a -> b`.";
     assert_eq!(missing_paths(text, &root), ["xtask/src/gone.rs", "docs/gone.md"]);
     assert!(missing_paths("```\n`no/such/path`\n```", &root).is_empty());
     assert_eq!(missing_paths("`no/such`", Path::new("/")), ["no/such"]);

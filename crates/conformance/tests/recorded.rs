@@ -4,10 +4,9 @@ use conformance::{p3_hash, recorded};
 use hray::NoiseTables;
 use std::path::{Path, PathBuf};
 
-fn check(folder: &Path, scenes: &Path, tables: &NoiseTables) -> usize {
-    let recorded = recorded(folder).unwrap();
+fn check(recorded: &[(String, String)], scenes: &Path, tables: &NoiseTables) -> usize {
     let mut failures = Vec::new();
-    for (name, expected) in &recorded {
+    for (name, expected) in recorded {
         let found = p3_hash(&scenes.join(format!("{name}.hry")), tables);
         if found.as_ref() != Ok(expected) {
             failures.push(format!("{name}: {found:?} instead of {expected}"));
@@ -31,13 +30,13 @@ fn the_pictures_of_2005_are_reproduced_byte_for_byte() {
         return;
     };
     let tables = hray::read_noise_tables(&classic.join("noise-tables.json")).unwrap();
-    assert_eq!(check(&classic, &classic.join("scenes"), &tables), 18);
+    assert_eq!(check(&recorded(&classic).unwrap(), &classic.join("scenes"), &tables), 18);
 }
 
 #[test]
 fn the_examples_are_as_recorded() {
     let examples = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples");
-    let count = check(&examples, &examples, &NoiseTables::default());
+    let count = check(&recorded(&examples).unwrap(), &examples, &NoiseTables::default());
     let scenes = std::fs::read_dir(&examples).unwrap().filter(|entry| {
         entry.as_ref().is_ok_and(|entry| entry.path().extension().is_some_and(|e| e == "hry"))
     });
