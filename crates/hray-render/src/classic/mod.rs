@@ -25,7 +25,7 @@ use shapes::Prepared;
 /// The most rays a batch is made of: enough to fill vectors after grouping, few enough to stay in cache.
 const BATCH: usize = 512;
 /// What the frames of one thread may hold at the deepest level, in rays.
-const RAYS_IN_FLIGHT: usize = 1 << 17;
+const RAYS_IN_FLIGHT: usize = 1 << 15;
 
 /// A scene ready to be traced. Primitives and lights are in the order in which the thesis' lists hold them,
 /// the reverse of the source's.
@@ -81,7 +81,7 @@ impl Integrator {
     /// How many points [`Integrator::radiance`] should be given at a time.
     pub(crate) fn batch(max_depth: i32) -> usize {
         let levels = usize::try_from(max_depth).unwrap_or(0) + 1;
-        (RAYS_IN_FLIGHT / levels).clamp(2 * MAX_LANES, BATCH)
+        (RAYS_IN_FLIGHT / levels).clamp(MAX_LANES, BATCH)
     }
 
     /// The colours seen through points of the window (in world space, z = 0).
