@@ -152,7 +152,7 @@ fn highlight<S: Simd>(
 /// The mirrored rays of a frame: `reflectPt`.
 #[inline(always)]
 pub(super) fn reflect<S: Simd>(simd: S, materials: &[Material], frame: &Frame, next: &mut Frame) {
-    next.begin(Background::Black, frame.slot.len());
+    next.begin(Background::Black, frame.len);
     for group in frame.groups.iter().filter(|group| materials[group.primitive].reflection != 0.0) {
         for i in places::<S>(group.start, group.len) {
             let normal = Vec3::load(simd, frame.hit_normal.get(), i);
@@ -176,7 +176,7 @@ fn extend_parents(next: &mut Frame, group: &Group) {
 /// The refracted rays of a frame: `refractPt`. Where all light is reflected inside there is none.
 #[inline(always)]
 pub(super) fn refract<S: Simd>(simd: S, scene: &Integrator, frame: &Frame, next: &mut Frame) {
-    next.begin(Background::PerRay, frame.slot.len());
+    next.begin(Background::PerRay, frame.len);
     for group in &frame.groups {
         let material = &scene.materials[group.primitive];
         if material.transmission == 0.0 {
