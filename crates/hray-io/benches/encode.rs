@@ -36,7 +36,7 @@ fn encode(criterion: &mut Criterion) {
     let pixels = picture();
     let mut group = criterion.benchmark_group("encode");
     group.throughput(Throughput::Elements(3 * pixels.len() as u64));
-    for format in [PictureFormat::PpmAscii, PictureFormat::Ppm, PictureFormat::Exr, PictureFormat::Hdr] {
+    for format in [PictureFormat::PpmAscii, PictureFormat::Ppm, PictureFormat::Farbfeld, PictureFormat::Exr] {
         group.bench_function(format.name(), |bencher| {
             bencher.iter(|| {
                 for run in black_box(&pixels).chunks(4096) {

@@ -168,12 +168,12 @@ impl fmt::Display for OutputError {
             Self::Size { format, width, height } => write!(
                 f,
                 "a picture of {width} by {height} pixels is too large for the format {format}; \
-                 png, ppm and exr hold larger ones"
+                 png and ppm hold larger ones"
             ),
             Self::Memory { format, bytes } => write!(
                 f,
                 "the format {format} needs {} of memory for this picture, and there is less; \
-                 png, ppm and exr are written as they are rendered",
+                 png and ppm are written as they are rendered",
                 Bytes(*bytes)
             ),
             Self::Length { expected, given } => {

@@ -8,17 +8,19 @@
 //! [`PictureWriter`] takes the encoded runs in order on one thread and streams them out. The formats, and what
 //! each keeps of a colour:
 //!
-//! | format | extensions | of a component | memory |
+//! | format | extensions | of a component | memory, in bytes a pixel |
 //! |---|---|---|---|
 //! | P3 (`ppm-ascii`) | by request | round(255 c), unbounded, as in 2005 | streamed |
 //! | P6 (`ppm`) | `ppm`, `pnm` | 8 bits | streamed |
 //! | PNG | `png` | 8 bits | streamed |
-//! | TGA | `tga` | 8 bits | streamed |
-//! | farbfeld | `ff` | 16 bits | streamed |
-//! | Radiance HDR | `hdr` | 8 bits and a shared exponent | streamed |
-//! | OpenEXR | `exr` | f32 | streamed |
-//! | BMP, QOI, TIFF, lossless WebP | `bmp`, `qoi`, `tif`, `tiff`, `webp` | 8 bits | the picture, at 8 bits |
-//! | JPEG | `jpg`, `jpeg` | 8 bits, lossy (quality 95) | the picture, at 8 bits |
+//! | BMP | `bmp` | 8 bits | 3 |
+//! | TIFF | `tif`, `tiff` | 8 bits | 3 |
+//! | TGA | `tga` | 8 bits | 6 |
+//! | QOI | `qoi` | 8 bits | 3, and the file |
+//! | JPEG | `jpg`, `jpeg` | 8 bits, lossy (quality 95) | 3 |
+//! | WebP | `webp` | 8 bits, lossless | 7, and the file |
+//! | farbfeld | `ff` | 16 bits | 8 |
+//! | OpenEXR | `exr` | f32, unclipped | 12 |
 //!
 //! Invariant: a file appears whole or not at all. It is written under a temporary name beside its place and
 //! renamed when the last byte is in; until then an older file of that name is untouched, and a

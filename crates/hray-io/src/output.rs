@@ -1,13 +1,15 @@
 //! Bytes on their way to a file, a device or a pipe.
 
 use std::fs::File;
-use std::io::{self, BufWriter, Seek, Write};
+use std::io::{self, BufWriter, Seek, SeekFrom, Write};
 use std::path::PathBuf;
 use std::sync::{Arc, Mutex, PoisonError};
 use tempfile::TempPath;
 
 /// Bytes gathered before the system is called.
 const BUFFER: usize = 1 << 17;
+/// Bytes kept in memory where an encoder wants to go back and the output cannot; more go to a temporary file.
+const SPOOLED: usize = 1 << 24;
 
 /// Where the bytes go.
 enum Sink {
@@ -17,10 +19,12 @@ enum Sink {
 }
 
 /// A place for bytes that remembers whether one of them failed to arrive: the encoders of some crates write
-/// their last bytes when they are dropped, where no error can be returned.
+/// their last bytes when they are dropped, where no error can be returned, and others make a text of it.
 pub(crate) struct Output {
     sink: Sink,
     failed: bool,
+    /// Why it failed, until [`SharedOutput::cause`] is asked.
+    cause: Option<io::Error>,
 }
 
 impl Output {
@@ -28,36 +32,29 @@ impl Output {
         Self {
             sink: Sink::Replacing(BufWriter::with_capacity(BUFFER, file), temporary, target),
             failed: false,
+            cause: None,
         }
     }
 
     pub(crate) fn stream(writer: Box<dyn Write + Send>) -> Self {
-        Self { sink: Sink::Stream(BufWriter::with_capacity(BUFFER, writer)), failed: false }
+        let sink = Sink::Stream(BufWriter::with_capacity(BUFFER, writer));
+        Self { sink, failed: false, cause: None }
     }
 
-    fn write_all(&mut self, bytes: &[u8]) -> io::Result<()> {
+    fn attempt<T>(&mut self, action: impl FnOnce(&mut Sink) -> io::Result<T>) -> io::Result<T> {
         if self.failed {
-            return Err(io::Error::other("an earlier write failed"));
+            return Err(earlier());
         }
-        let result = match &mut self.sink {
-            Sink::Replacing(writer, ..) => writer.write_all(bytes),
-            Sink::Stream(writer) => writer.write_all(bytes),
-        };
-        self.failed = result.is_err();
-        result
-    }
-
-    /// The file itself, where what was written can be gone back to.
-    fn seekable(&mut self) -> Option<&mut BufWriter<File>> {
-        match &mut self.sink {
-            Sink::Replacing(writer, ..) => Some(writer),
-            Sink::Stream(_) => None,
-        }
+        action(&mut self.sink).map_err(|error| {
+            let kind = error.kind();
+            (self.failed, self.cause) = (true, Some(error));
+            kind.into()
+        })
     }
 
     fn finish(self) -> io::Result<()> {
         if self.failed {
-            return Err(io::Error::other("an earlier write failed"));
+            return Err(self.cause.unwrap_or_else(earlier));
         }
         match self.sink {
             Sink::Replacing(writer, temporary, target) => {
@@ -77,6 +74,34 @@ impl Output {
     }
 }
 
+fn earlier() -> io::Error {
+    io::Error::other("an earlier write failed")
+}
+
+impl Write for Output {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        self.attempt(|sink| match sink {
+            Sink::Replacing(writer, ..) => writer.write_all(bytes),
+            Sink::Stream(writer) => writer.write_all(bytes),
+        })?;
+        Ok(bytes.len())
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        Ok(())
+    }
+}
+
+/// For files only.
+impl Seek for Output {
+    fn seek(&mut self, position: SeekFrom) -> io::Result<u64> {
+        self.attempt(|sink| match sink {
+            Sink::Replacing(writer, ..) => writer.seek(position),
+            Sink::Stream(_) => Err(io::ErrorKind::NotSeekable.into()),
+        })
+    }
+}
+
 /// An [`Output`] that an encoder can own while the picture writer keeps hold of it.
 #[derive(Clone)]
 pub(crate) struct SharedOutput(Arc<Mutex<Option<Output>>>);
@@ -86,15 +111,42 @@ impl SharedOutput {
         Self(Arc::new(Mutex::new(Some(output))))
     }
 
-    fn with<T>(&self, action: impl FnOnce(&mut Output) -> io::Result<T>) -> io::Result<T> {
+    /// Lets `action` write.
+    pub(crate) fn with<T, E: From<io::Error>>(
+        &self,
+        action: impl FnOnce(&mut Output) -> Result<T, E>,
+    ) -> Result<T, E> {
         match self.0.lock().unwrap_or_else(PoisonError::into_inner).as_mut() {
             Some(output) => action(output),
-            None => Err(io::Error::other("the output is closed")),
+            None => Err(io::Error::other("the output is closed").into()),
         }
+    }
+
+    /// Lets `encode` write to something that can seek: the file itself, or a place from which it is copied to
+    /// the output afterwards.
+    pub(crate) fn with_seekable<E: From<io::Error>>(
+        &self,
+        encode: impl FnOnce(&mut dyn WriteSeek) -> Result<(), E>,
+    ) -> Result<(), E> {
+        self.with(|output| {
+            if matches!(output.sink, Sink::Replacing(..)) {
+                return encode(output);
+            }
+            let mut spooled = tempfile::spooled_tempfile(SPOOLED);
+            encode(&mut spooled)?;
+            spooled.rewind()?;
+            io::copy(&mut spooled, output)?;
+            Ok(())
+        })
     }
 
     fn take(&self) -> Option<Output> {
         self.0.lock().unwrap_or_else(PoisonError::into_inner).take()
+    }
+
+    /// Why a write failed, where one did and nobody has asked.
+    pub(crate) fn cause(&self) -> Option<io::Error> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner).as_mut()?.cause.take()
     }
 
     /// Writes what is buffered and moves the file to its place.
@@ -108,29 +160,11 @@ impl SharedOutput {
             output.abandon();
         }
     }
-
-    /// Lets `encode` write to something that can seek: the file itself, or memory that is written afterwards.
-    pub(crate) fn write_seekable<E: From<io::Error>>(
-        &mut self,
-        encode: impl FnOnce(&mut dyn WriteSeek) -> Result<(), E>,
-    ) -> Result<(), E> {
-        let mut guard = self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        match guard.as_mut().and_then(Output::seekable) {
-            Some(file) => encode(file),
-            None => {
-                drop(guard);
-                let mut memory = io::Cursor::new(Vec::new());
-                encode(&mut memory)?;
-                Ok(self.write_all(memory.get_ref())?)
-            }
-        }
-    }
 }
 
 impl Write for SharedOutput {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        self.with(|output| output.write_all(bytes))?;
-        Ok(bytes.len())
+        self.with(|output| output.write(bytes))
     }
 
     fn flush(&mut self) -> io::Result<()> {

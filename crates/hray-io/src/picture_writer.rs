@@ -1,10 +1,10 @@
 //! A picture on its way to a file.
 
-use crate::format::Scanlines;
 use crate::output::{Output, SharedOutput};
 use crate::{Destination, OutputError, PictureFormat};
 use image::codecs::{
-    bmp::BmpEncoder, jpeg::JpegEncoder, qoi::QoiEncoder, tiff::TiffEncoder, webp::WebPEncoder,
+    bmp::BmpEncoder, farbfeld::FarbfeldEncoder, jpeg::JpegEncoder, openexr::OpenExrEncoder, qoi::QoiEncoder,
+    tga::TgaEncoder, tiff::TiffEncoder, webp::WebPEncoder,
 };
 use image::{ExtendedColorType, ImageEncoder, ImageError};
 use std::io::{self, Write};
@@ -28,27 +28,57 @@ pub struct PictureWriter {
     height: u32,
     output: SharedOutput,
     encoder: Encoder,
-    /// Bytes of pixels that are still to come, where their number is fixed.
-    missing: Option<u64>,
+    /// Bytes of pixels that the picture has, where their number is fixed.
+    expected: Option<u64>,
+    given: u64,
 }
 
 enum Encoder {
     /// The pixels go to the output as they are.
     Plain,
-    Lines(Scanlines),
     Png(Box<png::StreamWriter<'static, SharedOutput>>),
     /// The whole picture is wanted at once.
-    Collected(Vec<u8>),
+    Collected(Collected),
 }
 
 impl std::fmt::Debug for Encoder {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.write_str(match self {
             Self::Plain => "Plain",
-            Self::Lines(_) => "Lines",
             Self::Png(_) => "Png",
             Self::Collected(_) => "Collected",
         })
+    }
+}
+
+/// A picture in memory.
+struct Collected {
+    pixels: Vec<u8>,
+    color: ExtendedColorType,
+    width: u32,
+    height: u32,
+}
+
+impl Collected {
+    /// Takes the memory that the picture and its encoder will need.
+    fn new(
+        format: PictureFormat,
+        color: ExtendedColorType,
+        width: u32,
+        height: u32,
+    ) -> Result<Self, OutputError> {
+        let bytes = bytes(bytes_per_pixel(color) + format.encoder_memory(), width, height);
+        let mut pixels = Vec::new();
+        let reserved = usize::try_from(bytes).is_ok_and(|n| pixels.try_reserve_exact(n).is_ok());
+        if reserved {
+            Ok(Self { pixels, color, width, height })
+        } else {
+            Err(OutputError::Memory { format, bytes })
+        }
+    }
+
+    fn write(&self, encoder: impl ImageEncoder) -> Result<(), ImageError> {
+        encoder.write_image(&self.pixels, self.width, self.height, self.color)
     }
 }
 
@@ -93,33 +123,39 @@ impl PictureWriter {
         width: u32,
         height: u32,
     ) -> Result<Self, OutputError> {
-        let output = SharedOutput::new(output);
-        let missing = format.bytes_per_pixel().map(|n| n * u64::from(width) * u64::from(height));
-        let mut writer =
-            Self { name: name.to_owned(), format, width, height, output, encoder: Encoder::Plain, missing };
-        let header = format.header(width, height);
-        writer.output.write_all(&header).map_err(|source| writer.io(source))?;
-        writer.encoder = match format {
-            PictureFormat::Png => writer.png().map_err(|source| writer.io(source))?,
-            PictureFormat::Exr => Encoder::Lines(Scanlines::new(width)),
-            _ if format.streams() => Encoder::Plain,
-            _ => {
-                let bytes = missing.unwrap_or(0);
-                let mut pixels = Vec::new();
-                usize::try_from(bytes)
-                    .ok()
-                    .and_then(|n| pixels.try_reserve_exact(n).ok())
-                    .ok_or(OutputError::Memory { format, bytes })?;
-                Encoder::Collected(pixels)
-            }
+        let color = format.color_type();
+        let mut writer = Self {
+            name: name.to_owned(),
+            format,
+            width,
+            height,
+            output: SharedOutput::new(output),
+            encoder: Encoder::Plain,
+            expected: color.map(|color| bytes(bytes_per_pixel(color), width, height)),
+            given: 0,
+        };
+        writer.encoder = match (format, color) {
+            (PictureFormat::Png, _) => writer.png().map_err(|source| writer.io(source))?,
+            (PictureFormat::Ppm, _) => writer.ppm("P6").map_err(|source| writer.io(source))?,
+            (_, None) => writer.ppm("P3").map_err(|source| writer.io(source))?,
+            (_, Some(color)) => Encoder::Collected(Collected::new(format, color, width, height)?),
         };
         Ok(writer)
+    }
+
+    /// Netpbm's formats are a header and then the pixels: <https://netpbm.sourceforge.net/doc/ppm.html>.
+    fn ppm(&mut self, magic: &str) -> io::Result<Encoder> {
+        write!(self.output, "{magic}\n{} {}\n255\n", self.width, self.height)?;
+        Ok(Encoder::Plain)
     }
 
     fn png(&self) -> io::Result<Encoder> {
         let mut encoder = png::Encoder::new(self.output.clone(), self.width, self.height);
         encoder.set_color(png::ColorType::Rgb);
         encoder.set_depth(png::BitDepth::Eight);
+        // With the adaptive filter that is part of it, the examples at 800 x 600 take 2 to 4 ms and 256 kB on
+        // average; one filter for all lines makes them up to 28 % larger. `MinEntropy` gains 1 % in twice the
+        // time, deflate level 2 gains 7 % in 6 to 13 ms, and `Balanced` 19 % in 26 to 110 ms.
         encoder.set_compression(png::Compression::Fast);
         let stream = encoder.write_header()?.into_stream_writer_with_size(PNG_CHUNK)?;
         Ok(Encoder::Png(Box::new(stream)))
@@ -131,16 +167,15 @@ impl PictureWriter {
     /// [`OutputError::Io`] where they cannot be written, [`OutputError::Length`] where there are more than the
     /// picture has. The picture is then lost; drop the writer.
     pub fn write(&mut self, encoded: &[u8]) -> Result<(), OutputError> {
-        if let Some(missing) = &mut self.missing {
-            let given = encoded.len() as u64;
-            *missing = missing.checked_sub(given).ok_or(OutputError::Length { expected: *missing, given })?;
+        self.given += encoded.len() as u64;
+        if let Some(expected) = self.expected.filter(|&expected| self.given > expected) {
+            return Err(OutputError::Length { expected, given: self.given });
         }
         let result = match &mut self.encoder {
             Encoder::Plain => self.output.write_all(encoded),
-            Encoder::Lines(lines) => lines.write(encoded, &mut self.output),
             Encoder::Png(stream) => stream.write_all(encoded),
-            Encoder::Collected(pixels) => {
-                pixels.extend_from_slice(encoded);
+            Encoder::Collected(picture) => {
+                picture.pixels.extend_from_slice(encoded);
                 Ok(())
             }
         };
@@ -153,39 +188,40 @@ impl PictureWriter {
     /// [`OutputError::Length`] where pixels are missing, [`OutputError::Io`] where the system refuses. Then the
     /// destination is as it was.
     pub fn finish(mut self) -> Result<(), OutputError> {
-        if let Some(missing @ 1..) = self.missing {
-            let pixels = u64::from(self.width) * u64::from(self.height);
-            let expected = self.format.bytes_per_pixel().unwrap_or(0) * pixels;
-            return Err(OutputError::Length { expected, given: expected - missing });
+        if let Some(expected) = self.expected.filter(|&expected| self.given != expected) {
+            return Err(OutputError::Length { expected, given: self.given });
         }
         let result = match std::mem::replace(&mut self.encoder, Encoder::Plain) {
-            Encoder::Plain | Encoder::Lines(_) => Ok(()),
+            Encoder::Plain => Ok(()),
             Encoder::Png(stream) => stream.finish().map_err(io::Error::from),
-            Encoder::Collected(pixels) => self.encode_collected(&pixels).map_err(into_io),
+            Encoder::Collected(mut picture) => {
+                // The rest is for the encoder.
+                picture.pixels.shrink_to_fit();
+                self.write_collected(&picture).map_err(into_io)
+            }
         };
         result.and_then(|()| self.output.finish()).map_err(|source| self.io(source))
     }
 
-    fn encode_collected(&mut self, pixels: &[u8]) -> Result<(), ImageError> {
-        let (width, height, color) = (self.width, self.height, ExtendedColorType::Rgb8);
-        let output = &mut self.output;
+    fn write_collected(&self, picture: &Collected) -> Result<(), ImageError> {
+        let output = &self.output;
         match self.format {
-            PictureFormat::Bmp => BmpEncoder::new(output).write_image(pixels, width, height, color),
+            PictureFormat::Ppm | PictureFormat::PpmAscii | PictureFormat::Png => Ok(()),
+            PictureFormat::Bmp => output.with(|out| picture.write(BmpEncoder::new(out))),
+            PictureFormat::Tga => output.with(|out| picture.write(TgaEncoder::new(out).disable_rle())),
+            PictureFormat::Qoi => output.with(|out| picture.write(QoiEncoder::new(out))),
             PictureFormat::Jpeg => {
-                JpegEncoder::new_with_quality(output, JPEG_QUALITY).write_image(pixels, width, height, color)
+                output.with(|out| picture.write(JpegEncoder::new_with_quality(out, JPEG_QUALITY)))
             }
-            PictureFormat::Qoi => QoiEncoder::new(output).write_image(pixels, width, height, color),
-            PictureFormat::WebP => {
-                WebPEncoder::new_lossless(output).write_image(pixels, width, height, color)
-            }
-            PictureFormat::Tiff => {
-                output.write_seekable(|file| TiffEncoder::new(file).write_image(pixels, width, height, color))
-            }
-            _ => Ok(()),
+            PictureFormat::WebP => output.with(|out| picture.write(WebPEncoder::new_lossless(out))),
+            PictureFormat::Farbfeld => output.with(|out| picture.write(FarbfeldEncoder::new(out))),
+            PictureFormat::Tiff => output.with_seekable(|out| picture.write(TiffEncoder::new(out))),
+            PictureFormat::Exr => output.with_seekable(|out| picture.write(OpenExrEncoder::new(out))),
         }
     }
 
     fn io(&self, source: io::Error) -> OutputError {
+        let source = self.output.cause().unwrap_or(source);
         OutputError::Io { path: self.name.clone(), source }
     }
 }
@@ -195,6 +231,14 @@ impl Drop for PictureWriter {
         // Before the encoder, which may have last words, is dropped.
         self.output.abandon();
     }
+}
+
+fn bytes_per_pixel(color: ExtendedColorType) -> u64 {
+    u64::from(color.bits_per_pixel() / 8)
+}
+
+fn bytes(per_pixel: u64, width: u32, height: u32) -> u64 {
+    (per_pixel * u64::from(width)).saturating_mul(u64::from(height))
 }
 
 fn into_io(error: ImageError) -> io::Error {

@@ -1,15 +1,11 @@
 //! The picture formats: their names, their limits, and what becomes of a colour in each.
 
-mod exr;
-mod header;
 mod ppm_text;
 mod quantize;
-mod rgbe;
-
-pub(crate) use exr::Scanlines;
 
 use crate::{OutputError, Quoted};
 use hray_core::Rgb;
+use image::ExtendedColorType;
 use std::fmt;
 use std::path::{Path, PathBuf};
 
@@ -36,9 +32,7 @@ pub enum PictureFormat {
     Jpeg,
     /// WebP, lossless.
     WebP,
-    /// Radiance: eight bits a component under a shared exponent; keeps what is brighter than 1.
-    Hdr,
-    /// OpenEXR: single precision, uncompressed; keeps every colour as it was computed.
+    /// OpenEXR: single precision, unclipped, losslessly compressed.
     Exr,
     /// farbfeld: sixteen bits a component.
     Farbfeld,
@@ -46,7 +40,7 @@ pub enum PictureFormat {
 
 impl PictureFormat {
     /// All of them.
-    pub const ALL: [Self; 12] = [
+    pub const ALL: [Self; 11] = [
         Self::Png,
         Self::Ppm,
         Self::PpmAscii,
@@ -56,7 +50,6 @@ impl PictureFormat {
         Self::Qoi,
         Self::Jpeg,
         Self::WebP,
-        Self::Hdr,
         Self::Exr,
         Self::Farbfeld,
     ];
@@ -74,7 +67,6 @@ impl PictureFormat {
             Self::Qoi => "qoi",
             Self::Jpeg => "jpeg",
             Self::WebP => "webp",
-            Self::Hdr => "hdr",
             Self::Exr => "exr",
             Self::Farbfeld => "farbfeld",
         }
@@ -93,7 +85,6 @@ impl PictureFormat {
             Self::Qoi => "quite OK image",
             Self::Jpeg => "JPEG (lossy)",
             Self::WebP => "WebP, lossless",
-            Self::Hdr => "Radiance, for colours beyond 1",
             Self::Exr => "OpenEXR, 32-bit floating point, unclipped",
             Self::Farbfeld => "farbfeld, 16 bits a component",
         }
@@ -113,7 +104,6 @@ impl PictureFormat {
             Self::Qoi => &["qoi"],
             Self::Jpeg => &["jpg", "jpeg"],
             Self::WebP => &["webp"],
-            Self::Hdr => &["hdr"],
             Self::Exr => &["exr"],
             Self::Farbfeld => &["ff"],
         }
@@ -142,36 +132,24 @@ impl PictureFormat {
             .find(|format| format.extensions().iter().any(|known| known.eq_ignore_ascii_case(extension)))
     }
 
-    /// Whether the format is written as it is rendered; the others need the whole picture in memory first,
-    /// at eight bits a component.
-    #[must_use]
-    pub const fn streams(self) -> bool {
-        !matches!(self, Self::Bmp | Self::Tiff | Self::Qoi | Self::Jpeg | Self::WebP)
-    }
-
     /// A run of pixels as a [`crate::PictureWriter`] of this format takes it. Pure and independent of where
     /// the run begins, so that every thread encodes what it rendered.
     #[must_use]
     pub fn encode(self, pixels: &[Rgb]) -> Vec<u8> {
-        match self {
-            Self::PpmAscii => ppm_text::ppm_text(pixels),
-            Self::Tga => quantize::bgr8(pixels),
-            Self::Hdr => rgbe::rgbe(pixels),
-            Self::Exr => quantize::rgb32_little_endian(pixels),
-            Self::Farbfeld => quantize::rgba16_big_endian(pixels),
-            Self::Ppm | Self::Png | Self::Bmp | Self::Tiff | Self::Qoi | Self::Jpeg | Self::WebP => {
-                quantize::rgb8(pixels)
-            }
+        match self.color_type() {
+            None => ppm_text::ppm_text(pixels),
+            Some(ExtendedColorType::Rgb32F) => quantize::rgb32(pixels),
+            Some(ExtendedColorType::Rgba16) => quantize::rgba16(pixels),
+            Some(_) => quantize::rgb8(pixels),
         }
     }
 
-    /// Bytes that [`PictureFormat::encode`] makes of a pixel, where that is the same for all.
-    pub(crate) const fn bytes_per_pixel(self) -> Option<u64> {
+    /// What [`PictureFormat::encode`] makes of the pixels; none for text.
+    pub(crate) const fn color_type(self) -> Option<ExtendedColorType> {
         match self {
             Self::PpmAscii => None,
-            Self::Hdr => Some(4),
-            Self::Farbfeld => Some(8),
-            Self::Exr => Some(12),
+            Self::Exr => Some(ExtendedColorType::Rgb32F),
+            Self::Farbfeld => Some(ExtendedColorType::Rgba16),
             Self::Ppm
             | Self::Png
             | Self::Bmp
@@ -179,21 +157,20 @@ impl PictureFormat {
             | Self::Tga
             | Self::Qoi
             | Self::Jpeg
-            | Self::WebP => Some(3),
+            | Self::WebP => Some(ExtendedColorType::Rgb8),
         }
     }
 
-    /// What stands before the pixels, in the formats that are a header and then the pixels as they are
-    /// encoded (in OpenEXR each line has a few bytes of its own besides).
-    pub(crate) fn header(self, width: u32, height: u32) -> Vec<u8> {
+    /// Bytes a pixel, about, that the encoder of the whole picture takes besides the pixels it is given.
+    pub(crate) const fn encoder_memory(self) -> u64 {
         match self {
-            Self::PpmAscii => header::ppm("P3", width, height),
-            Self::Ppm => header::ppm("P6", width, height),
-            Self::Tga => header::tga(width, height),
-            Self::Hdr => header::hdr(width, height),
-            Self::Farbfeld => header::farbfeld(width, height),
-            Self::Exr => exr::header(width, height),
-            Self::Png | Self::Bmp | Self::Tiff | Self::Qoi | Self::Jpeg | Self::WebP => Vec::new(),
+            // The pixels with red and blue exchanged.
+            Self::Tga => 3,
+            // The file, at its largest.
+            Self::Qoi => 4,
+            // The pixels with opacity, and the file.
+            Self::WebP => 8,
+            _ => 0,
         }
     }
 
@@ -206,10 +183,9 @@ impl PictureFormat {
         let pixels = u64::from(width) * u64::from(height);
         let holds = match self {
             Self::Ppm | Self::PpmAscii | Self::Farbfeld => true,
-            Self::Png | Self::Hdr => longest <= i32::MAX as u32,
-            // A line is announced with its length in bytes, as a signed number of 32 bits; and the table of
-            // lines, eight bytes each, is made in memory.
-            Self::Exr => longest <= 1 << 24,
+            Self::Png => longest <= i32::MAX as u32,
+            // Half of the coordinates, so that sums of two do not overflow in other programs.
+            Self::Exr => longest < i32::MAX as u32 / 2,
             Self::Jpeg | Self::Tga => longest <= 0xffff,
             Self::WebP => longest <= 0x4000,
             // Offsets and lengths of 32 bits; BMP fills up each line to four bytes.
@@ -293,7 +269,7 @@ mod tests {
         assert_eq!(
             error,
             "cannot tell the format of `a.gif`: no picture format has the extension `gif`; known are png, \
-             ppm, pnm, bmp, tiff, tif, tga, qoi, jpg, jpeg, webp, hdr, exr, ff"
+             ppm, pnm, bmp, tiff, tif, tga, qoi, jpg, jpeg, webp, exr, ff"
         );
     }
 
@@ -304,7 +280,9 @@ mod tests {
         assert!(PictureFormat::WebP.check_size(1, 16_385).is_err());
         assert!(PictureFormat::Png.check_size(1 << 15, 1 << 15).is_ok());
         assert!(PictureFormat::Bmp.check_size(1 << 15, 1 << 15).is_ok());
-        assert!(PictureFormat::Exr.check_size(1 << 30, 1).is_err());
+        assert!(PictureFormat::Tga.check_size(1, 65_536).is_err());
+        assert!(PictureFormat::Exr.check_size((1 << 30) - 2, 1).is_ok());
+        assert!(PictureFormat::Exr.check_size((1 << 30) - 1, 1).is_err());
         assert!(PictureFormat::Ppm.check_size(0, 1).is_err());
     }
 }

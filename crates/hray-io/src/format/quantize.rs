@@ -31,32 +31,23 @@ pub(super) fn rgb8(pixels: &[Rgb]) -> Vec<u8> {
     bytes
 }
 
-/// Eight bits a component, blue first: what TGA wants.
-pub(super) fn bgr8(pixels: &[Rgb]) -> Vec<u8> {
-    let mut bytes = rgb8(pixels);
-    for pixel in bytes.chunks_exact_mut(3) {
-        pixel.swap(0, 2);
-    }
-    bytes
-}
-
-/// Sixteen bits a component, high byte first: red, green, blue and full opacity.
-pub(super) fn rgba16_big_endian(pixels: &[Rgb]) -> Vec<u8> {
+/// Sixteen bits a component in the byte order of the machine: red, green, blue and full opacity.
+pub(super) fn rgba16(pixels: &[Rgb]) -> Vec<u8> {
     let mut bytes = vec![0xff; 8 * pixels.len()];
     for (out, pixel) in bytes.chunks_exact_mut(8).zip(pixels) {
         for (pair, component) in out.chunks_exact_mut(2).zip(pixel.to_array()) {
-            pair.copy_from_slice(&(clipped(component, 65535.0) as u16).to_be_bytes());
+            pair.copy_from_slice(&(clipped(component, 65535.0) as u16).to_ne_bytes());
         }
     }
     bytes
 }
 
-/// Single precision, low byte first, neither scaled nor clipped.
-pub(super) fn rgb32_little_endian(pixels: &[Rgb]) -> Vec<u8> {
+/// Single precision in the byte order of the machine, neither scaled nor clipped.
+pub(super) fn rgb32(pixels: &[Rgb]) -> Vec<u8> {
     let mut bytes = vec![0; 12 * pixels.len()];
     for (out, pixel) in bytes.chunks_exact_mut(12).zip(pixels) {
         for (four, component) in out.chunks_exact_mut(4).zip(pixel.to_array()) {
-            four.copy_from_slice(&(component as f32).to_le_bytes());
+            four.copy_from_slice(&(component as f32).to_ne_bytes());
         }
     }
     bytes
@@ -88,19 +79,17 @@ mod tests {
             let pixel = [Rgb::new(r, g, b)];
             let eight = [r, g, b].map(|c| oracle(c, 255.0) as u8);
             prop_assert_eq!(rgb8(&pixel), eight);
-            prop_assert_eq!(bgr8(&pixel), [eight[2], eight[1], eight[0]]);
-            let words: Vec<u16> = rgba16_big_endian(&pixel)
+            let words: Vec<u16> = rgba16(&pixel)
                 .chunks_exact(2)
-                .map(|pair| u16::from_be_bytes([pair[0], pair[1]]))
+                .map(|pair| u16::from_ne_bytes([pair[0], pair[1]]))
                 .collect();
             prop_assert_eq!(words, [oracle(r, 65535.0), oracle(g, 65535.0), oracle(b, 65535.0), 65535]);
         }
 
         #[test]
         fn singles_are_the_nearest_ones(r in any_double()) {
-            let bytes = rgb32_little_endian(&[Rgb::new(r, 0.0, 1.0)]);
-            prop_assert_eq!(&bytes[0..4], &(r as f32).to_le_bytes()[..]);
-            prop_assert_eq!(&bytes[4..12], &[0, 0, 0, 0, 0, 0, 0x80, 0x3f][..]);
+            let expected = [r as f32, 0.0, 1.0].map(f32::to_ne_bytes);
+            prop_assert_eq!(rgb32(&[Rgb::new(r, 0.0, 1.0)]), expected.as_flattened());
         }
 
         #[test]
