@@ -64,6 +64,8 @@ pub fn run(runs: usize) -> Result<()> {
 }
 
 fn time(hray: &Path, classic: &Path, name: &str, threads: &str, output: &Path) -> Result<Duration> {
+    // A new file each time: replacing one makes some file systems write it out at once.
+    let _ = std::fs::remove_file(output);
     let start = Instant::now();
     let status = Command::new(hray)
         .arg(classic.join("scenes").join(format!("{name}.hry")))

@@ -1,4 +1,4 @@
-//! What is written in each format is what an independent decoder reads back.
+//! What is written in each format is what a decoder reads back.
 
 #![allow(clippy::unwrap_used, clippy::expect_used, reason = "a test may fail loudly")]
 
