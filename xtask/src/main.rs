@@ -6,7 +6,7 @@ use std::process::ExitCode;
 
 const USAGE: &str = "usage: cargo xtask NAME
   tidy            checks that the documents name what exists and that crates depend as they may
-  bless           renders examples/*.hry anew: pictures, thumbnails, hashes
+  bless           renders examples/*.hry anew: pictures and hashes
   bench [N]       whole-process time of the classic scenes (folder in HRAY_CLASSIC), median of N runs
                   each (default 9), beside the original's";
 

@@ -6,7 +6,14 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 /// Documents whose paths must exist.
-const DOCUMENTS: [&str; 4] = ["ARCHITECTURE.md", "README.md", "CONTRIBUTING.md", "docs/performance.md"];
+const DOCUMENTS: [&str; 6] = [
+    "ARCHITECTURE.md",
+    "README.md",
+    "CONTRIBUTING.md",
+    "CHANGELOG.md",
+    "docs/performance.md",
+    "fuzz/README.md",
+];
 /// Longer source files usually hide a second concept.
 const LONGEST_FILE: usize = 800;
 
@@ -23,7 +30,12 @@ pub fn run() -> Result<()> {
                 .into_iter()
                 .map(|path| format!("{document} names `{path}`, which does not exist")),
         );
+        complaints.extend(placeholders(&text).map(|word| format!("{document} still says {word}")));
     }
+    complaints.extend(
+        foreign_dependencies(&read(&root().join("crates/hray-model/Cargo.toml"))?)
+            .map(|line| format!("hray-model depends on more than libm: {line}")),
+    );
     let allowed = allowed_edges(&read(&root().join("ARCHITECTURE.md"))?)?;
     complaints.extend(forbidden_edges(&allowed, &actual_edges()?));
     complaints.extend(long_files()?);
@@ -57,6 +69,21 @@ pub fn missing_paths(document: &str, root: &Path) -> Vec<String> {
         missing.extend(paths.filter(|path| !root.join(path).exists()).map(str::to_owned));
     }
     missing
+}
+
+/// Words of a document that were to be replaced.
+fn placeholders(document: &str) -> impl Iterator<Item = &str> {
+    let words = document.split(|c: char| !c.is_ascii_uppercase() && c != '_');
+    words.filter(|word| {
+        ["TODO", "TBD", "FIXME"].contains(word) || word.ends_with("_PLACEHOLDER") || word.ends_with("_TABLE")
+    })
+}
+
+/// The lines of a manifest's `[dependencies]` that name something else than `libm`.
+pub fn foreign_dependencies(manifest: &str) -> impl Iterator<Item = &str> {
+    let table = manifest.split("[dependencies]\n").nth(1).unwrap_or("");
+    let lines = table.lines().take_while(|line| !line.starts_with('['));
+    lines.filter(|line| !line.trim().is_empty() && !line.starts_with('#') && !line.starts_with("libm"))
 }
 
 type Edges = BTreeMap<String, BTreeSet<String>>;

@@ -1,7 +1,9 @@
 //! The documents tell the truth, and the checks that say so can fail.
 
 use std::path::Path;
-use xtask::tidy::{allowed_edges, forbidden_edges, missing_paths, run, unreasoned_dependencies};
+use xtask::tidy::{
+    allowed_edges, forbidden_edges, foreign_dependencies, missing_paths, run, unreasoned_dependencies,
+};
 
 #[test]
 fn the_workspace_is_tidy() {
@@ -36,4 +38,11 @@ fn a_forbidden_edge_is_found() {
 fn a_dependency_without_a_reason_is_found() {
     let manifest = "[workspace.dependencies]\na = \"1\" # because\n# so that\nb = \"1\"\nc = \"1\"\n[other]\nd = \"1\"\n";
     assert_eq!(unreasoned_dependencies(manifest), ["Cargo.toml gives no reason for `c = \"1\"`"]);
+}
+
+#[test]
+fn a_foreign_dependency_of_the_model_is_found() {
+    let manifest =
+        "[dependencies]\nlibm.workspace = true\nglam = \"1\"\n\n[dev-dependencies]\nproptest = \"1\"\n";
+    assert_eq!(foreign_dependencies(manifest).collect::<Vec<_>>(), ["glam = \"1\""]);
 }

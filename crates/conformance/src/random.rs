@@ -58,7 +58,7 @@ impl Numbers {
 pub fn description(seed: u64) -> Option<Description> {
     let n = &mut Numbers(seed);
     let extreme = n.once_in(16);
-    let scale = if extreme { n.of(&[1e-160, 1e-9, 1e6, 1e18, 1e80, 1e155]) } else { 1.0 };
+    let scale = if extreme { n.of(&[1e-300, 1e-160, 1e-9, 1e6, 1e18, 1e80, 1e155, 1e304]) } else { 1.0 };
     let (width, height) = (n.below(23) as i64 + 1, n.below(17) as i64 + 1);
     let mut primitives: Vec<Primitive> = Vec::new();
     for _ in 0..n.below(9) {

@@ -37,3 +37,24 @@ fn a_difference_is_found() {
     }
     assert!(differences > 10, "only {differences} of 40 scenes show a change in the last place");
 }
+
+/// Where p 2^k overflows though p / grid is of ordinary size, noise is not a number and the surface white.
+#[test]
+fn noise_of_points_that_overflow_between_octaves() {
+    use hray::{DVec3, NoiseTexture, Plane, Rgb, Shape, Texture};
+    let mut description = (0..).find_map(random::description).unwrap();
+    description.max_depth = 0;
+    description.scene.camera.eye = DVec3::new(0.0, 0.0, 150.0);
+    description.scene.camera.window = [100, 75];
+    description.scene.lights =
+        vec![hray::Light::Point { position: DVec3::new(0.0, 0.0, 9.0), intensity: Rgb::new(1.0, 1.0, 1.0) }];
+    let base = Rgb::new(1.0, 1.0, 1.0);
+    let texture = Texture::Noise(NoiseTexture::Turbulence { base, octaves: 3, grid: 1e308 });
+    let material =
+        hray::Material { texture, reflection: 0.0, shine: 0, transmission: 0.0, refractive_index: 0.0 };
+    let shape = Shape::Plane(Plane { normal: DVec3::Z, offset: 1e308 });
+    description.scene.primitives = vec![hray::Primitive { shape, material }];
+    let tables = NoiseTables::default();
+    compare(&description, &tables, 1).unwrap();
+    assert!(conformance::engine_colors(&description, &tables, 1).unwrap().contains(&base));
+}

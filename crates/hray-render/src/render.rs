@@ -11,8 +11,12 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::mpsc::{Sender, channel};
 use std::sync::{Condvar, Mutex, PoisonError};
 
-/// Rays of a run, about; a run has at least one pixel.
+/// Camera rays of a run, about, where there are enough of them.
 const RUN: u64 = 4096;
+/// Runs that each thread gets at least, so that all are busy to the end; as long as a run has enough pixels to
+/// fill vectors.
+const RUNS_PER_THREAD: u64 = 16;
+const SMALLEST_RUN: u64 = 64;
 /// Runs per thread that may be finished before their turn.
 const AHEAD: u64 = 8;
 
@@ -61,9 +65,10 @@ pub fn render<T, E>(
 where
     T: Send,
 {
-    let job = Job::new(scene, tables, settings, control);
     let threads = settings.threads.or_else(|| std::thread::available_parallelism().ok());
-    let threads = threads.map_or(1, NonZeroUsize::get).min(usize::try_from(job.runs).unwrap_or(usize::MAX));
+    let threads = threads.map_or(1, NonZeroUsize::get).min(Integrator::most_threads(settings.max_depth));
+    let job = Job::new(scene, tables, settings, control, threads as u64);
+    let threads = threads.min(usize::try_from(job.runs).unwrap_or(usize::MAX));
     let rays = if threads == 1 {
         job.render_here(encode, consume)?
     } else {
@@ -82,8 +87,16 @@ struct Job<'a> {
 }
 
 impl<'a> Job<'a> {
-    fn new(scene: &Scene, tables: &NoiseTables, settings: &'a Settings, control: &'a Control) -> Self {
-        let pixels_per_run = (RUN / u64::from(settings.samples.get())).max(1);
+    fn new(
+        scene: &Scene,
+        tables: &NoiseTables,
+        settings: &'a Settings,
+        control: &'a Control,
+        threads: u64,
+    ) -> Self {
+        let samples = u64::from(settings.samples.get());
+        let fair = settings.region.pixels() / threads.saturating_mul(RUNS_PER_THREAD);
+        let pixels_per_run = fair.clamp(SMALLEST_RUN, RUN).min(RUN / samples).max(1);
         Self {
             integrator: Integrator::new(scene, tables),
             settings,
@@ -305,5 +318,90 @@ impl Drop for StopWhenDropped<'_> {
         if std::thread::panicking() {
             self.0.stop();
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use hray_core::{DVec3, Light, Material, Primitive, Resolution, Shape, Sphere, Texture, WindowCamera};
+    use std::time::{Duration, Instant};
+
+    fn spheres(count: usize, lights: usize) -> Scene {
+        let material = Material {
+            texture: Texture::Solid(Rgb::new(0.5, 0.5, 0.5)),
+            reflection: 0.5,
+            shine: 20,
+            transmission: 0.0,
+            refractive_index: 0.0,
+        };
+        let shape = |i: usize| {
+            let center = DVec3::new((i % 300) as f64 - 150.0, (i / 300) as f64 - 150.0, -300.0);
+            Shape::Sphere(Sphere { radius: 2.0, center })
+        };
+        let light = |i: usize| Light::Point {
+            position: DVec3::new(i as f64, 500.0, 100.0),
+            intensity: Rgb::new(0.1, 0.1, 0.1),
+        };
+        Scene {
+            camera: WindowCamera { eye: DVec3::new(0.0, 0.0, 150.0), window: [100, 100] },
+            background: Rgb::BLACK,
+            primitives: (0..count)
+                .map(|i| Primitive { shape: shape(i), material: material.clone() })
+                .collect(),
+            lights: (0..lights).map(light).collect(),
+        }
+    }
+
+    fn settings(side: i64, threads: usize) -> Settings {
+        let resolution = Resolution::new(side, side).unwrap();
+        Settings {
+            resolution,
+            region: crate::Region::whole(resolution),
+            max_depth: 3,
+            samples: NonZeroU32::MIN,
+            threads: NonZeroUsize::new(threads),
+        }
+    }
+
+    /// One step over a batch takes minutes here; it must not have to end first.
+    #[test]
+    fn a_stopped_render_ends_in_the_middle_of_a_batch() {
+        let (scene, tables, control) = (spheres(90_000, 3000), NoiseTables::default(), Control::new());
+        let start = Instant::now();
+        let result = std::thread::scope(|scope| {
+            scope.spawn(|| {
+                std::thread::sleep(Duration::from_millis(300));
+                control.cancel();
+            });
+            render(&scene, &tables, &settings(64, 2), &control, <[Rgb]>::len, |_| Ok::<(), ()>(()))
+        });
+        assert_eq!(result, Err(RenderError::Cancelled));
+        assert!(start.elapsed() < Duration::from_secs(30));
+    }
+
+    #[test]
+    fn a_small_picture_keeps_all_threads_busy() {
+        let (scene, tables, control) = (spheres(10, 1), NoiseTables::default(), Control::new());
+        let of = |threads| {
+            let mut pixels = Vec::new();
+            let take = |run: Vec<Rgb>| {
+                pixels.extend(run);
+                Ok::<(), ()>(())
+            };
+            let statistics =
+                render(&scene, &tables, &settings(64, threads), &control, <[Rgb]>::to_vec, take).unwrap();
+            assert_eq!(statistics.threads, threads);
+            (pixels, statistics.rays)
+        };
+        let expected = of(1);
+        assert_eq!(expected.0.len(), 64 * 64);
+        assert!([2, 7, 16].map(of).iter().all(|found| *found == expected));
+    }
+
+    #[test]
+    fn the_memory_of_deep_recursion_limits_the_threads() {
+        assert!(Integrator::most_threads(10) >= 64);
+        assert!((1..=32).contains(&Integrator::most_threads(10_000)));
     }
 }

@@ -29,8 +29,7 @@ pub fn render_to_file(
 /// Renders to a file, a device or the standard output.
 ///
 /// Everything that can be refused is refused before the first ray. Pixels are written as they are rendered,
-/// so that memory does not grow with the picture, except in formats that do not allow it
-/// ([`PictureFormat::streams`]).
+/// so that memory does not grow with the picture, except in formats that want the whole of it at once.
 ///
 /// # Errors
 /// [`Error::Options`], [`Error::Output`], [`Error::Cancelled`], [`Error::Threads`].

@@ -202,7 +202,9 @@ fn octaves(reader: &mut Reader<'_>, errors: &mut Vec<Diagnostic>) -> u32 {
         errors.push(if count < 0 {
             error.with_note("the octaves are counted down to 0, so below 0 it would never end")
         } else {
-            error.with_note("octaves beyond the tenth or so cannot be seen")
+            error.with_note(
+                "each octave is half as strong as the one before; more than thirty change no pixel",
+            )
         });
         0
     })

@@ -58,8 +58,8 @@ pub const LINTS: &[Lint] = &[
     ),
     lint(
         "many-octaves",
-        "More than 30 octaves of noise: each is half as strong as the one before, so those beyond the tenth or \
-         so change no pixel, but all cost time.",
+        "More than 30 octaves of noise: each is half as strong as the one before, so the last of them change no \
+         pixel, but all cost time. (From 1024 on the sum is not a number, and the surface white.)",
     ),
     lint(
         "negative-shine",

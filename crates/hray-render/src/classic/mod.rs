@@ -24,8 +24,14 @@ use shapes::Prepared;
 
 /// The most rays a batch is made of: enough to fill vectors after grouping, few enough to stay in cache.
 const BATCH: usize = 512;
-/// What the frames of one thread may hold at the deepest level, in rays.
+/// What the frames of one thread hold at all levels together, in rays; but at least a vector at each level.
 const RAYS_IN_FLIGHT: usize = 1 << 15;
+/// Bytes that a ray costs at worst, where every ray of a batch hits something else and so fills a vector of its
+/// own, and that a frame costs besides.
+const BYTES_PER_RAY: usize = 1000;
+const BYTES_PER_FRAME: usize = 2000;
+/// What the frames of all threads together may hold at worst.
+const BYTES_IN_FLIGHT: usize = 2 << 30;
 
 /// A scene ready to be traced. Primitives and lights are in the order in which the thesis' lists hold them,
 /// the reverse of the source's.
@@ -84,6 +90,14 @@ impl Integrator {
         (RAYS_IN_FLIGHT / levels).clamp(MAX_LANES, BATCH)
     }
 
+    /// How many threads may trace at once before their frames could take more memory than is reasonable: few
+    /// only where the recursion is thousands of levels deep.
+    pub(crate) fn most_threads(max_depth: i32) -> usize {
+        let levels = usize::try_from(max_depth).unwrap_or(0) + 1;
+        let worst = levels * (Self::batch(max_depth) * BYTES_PER_RAY + BYTES_PER_FRAME);
+        (BYTES_IN_FLIGHT / worst).max(1)
+    }
+
     /// The colours seen through points of the window (in world space, z = 0).
     pub(crate) fn radiance(
         &self,
@@ -117,10 +131,13 @@ impl Integrator {
             let (upper, lower) = frames.split_at_mut(top + 1);
             let (frame, next) = (&mut upper[top], &mut lower[0]);
             if frame.phase == Phase::Trace {
-                dispatch!(self.level, simd => steps::intersect(simd, &self.shapes, frame));
+                dispatch!(self.level, simd => steps::intersect(simd, &self.shapes, frame, control));
+                if control.is_cancelled() {
+                    return Err(Stopped);
+                }
                 frame.group_hits(self.shapes.len(), keys);
                 self.fill_background(frame);
-                rays.shadow += dispatch!(self.level, simd => steps::shade(simd, self, frame));
+                rays.shadow += dispatch!(self.level, simd => steps::shade(simd, self, frame, control));
                 frame.phase = Phase::AfterReflection;
                 if depth_left > 0 {
                     dispatch!(self.level, simd => steps::reflect(simd, &self.materials, frame, next));

@@ -17,8 +17,9 @@ const EXACT_CELLS: f64 = (1u64 << 50) as f64;
 const LOW_BITS: f64 = (3u64 << 51) as f64;
 /// More octaves than this are left to the definition: they cannot be seen, only waited for.
 const MAX_OCTAVES: u32 = 48;
-/// Below this, scaling by a power of two might not be exact.
+/// Below this, scaling by a power of two might not be exact; and from here on it might overflow.
 const TINY: f64 = 1e-280;
+const HUGE: f64 = 1e300;
 
 /// Noise tables, laid out for the kernel.
 pub(super) struct Noise {
@@ -233,7 +234,10 @@ impl Noise {
         let cells = Vec3::<S> { x: p.x / grid, y: p.y / grid, z: p.z / grid };
         let top = (1u64 << octaves.min(MAX_OCTAVES)) as f64;
         let fit = fits::<S>(cells.x, top) & fits::<S>(cells.y, top) & fits::<S>(cells.z, top);
-        if octaves > MAX_OCTAVES || !fit.all_true() {
+        let finite = (p.x.abs() * top).simd_lt(HUGE)
+            & (p.y.abs() * top).simd_lt(HUGE)
+            & (p.z.abs() * top).simd_lt(HUGE);
+        if octaves > MAX_OCTAVES || !(fit & finite).all_true() {
             let mut total = [0.0; MAX_LANES];
             for (lane, total) in total.iter_mut().enumerate().take(Lanes::<S>::LEN) {
                 let p = [p.x[lane], p.y[lane], p.z[lane]];
@@ -243,7 +247,8 @@ impl Noise {
         }
         let (mut total, mut scale, mut weight) = (Lanes::<S>::splat(simd, 0.0), 1.0, 1.0);
         for octave in 0..=octaves {
-            // Dividing once and scaling by powers of two rounds as scaling first and dividing each time.
+            // Dividing once and scaling by powers of two rounds as scaling first and dividing each time,
+            // where nothing overflows or vanishes.
             let scaled = Vec3::<S> { x: cells.x * scale, y: cells.y * scale, z: cells.z * scale };
             let n = self.noise_lanes(simd, table, scaled);
             let n = if sum == Sum::Absolute { n.abs() } else { n };

@@ -6,6 +6,7 @@ use super::lanes::{Lanes, Mask, Vec3, consecutive, gather};
 use super::power::power;
 use super::shapes::{Prepared, Rays};
 use super::texture::color_at;
+use crate::Control;
 use fearless_simd::prelude::*;
 use hray_core::{DVec3, Light, Material};
 
@@ -31,9 +32,13 @@ pub(super) fn away_from_eye<S: Simd>(simd: S, eye: DVec3, frame: &mut Frame) {
 
 /// The nearest hit of each ray: `intersect`. A later primitive must be strictly nearer.
 #[inline(always)]
-pub(super) fn intersect<S: Simd>(simd: S, shapes: &[Prepared], frame: &mut Frame) {
+pub(super) fn intersect<S: Simd>(simd: S, shapes: &[Prepared], frame: &mut Frame, control: &Control) {
     frame.nearest.reserve(frame.len);
     for i in places::<S>(0, frame.len) {
+        if control.is_cancelled() {
+            // What was not computed will not be looked at.
+            return;
+        }
         let origin = Vec3::load(simd, frame.origin.get(), i);
         let direction = Vec3::load(simd, frame.direction.get(), i);
         let rays = Rays::new(origin, direction);
@@ -57,7 +62,7 @@ pub(super) fn intersect<S: Simd>(simd: S, shapes: &[Prepared], frame: &mut Frame
 
 /// The direct light at every hit: `shadePt` summed over the lights. Returns how many shadow rays it took.
 #[inline(always)]
-pub(super) fn shade<S: Simd>(simd: S, scene: &Integrator, frame: &mut Frame) -> u64 {
+pub(super) fn shade<S: Simd>(simd: S, scene: &Integrator, frame: &mut Frame, control: &Control) -> u64 {
     let mut hits = 0;
     for group in &frame.groups {
         hits += group.len as u64;
@@ -72,27 +77,31 @@ pub(super) fn shade<S: Simd>(simd: S, scene: &Integrator, frame: &mut Frame) -> 
             point.store(frame.hit_point.get_mut(), i);
             normal.store(frame.hit_normal.get_mut(), i);
             direction.store(frame.hit_direction.get_mut(), i);
-            light(simd, scene, group.primitive, point, normal, direction).store(frame.hit_color.get_mut(), i);
+            let color = light(simd, scene, group.primitive, [point, normal, direction], control);
+            color.store(frame.hit_color.get_mut(), i);
         }
     }
     let point_lights = scene.lights.iter().filter(|light| matches!(light, Light::Point { .. })).count();
     hits * point_lights as u64
 }
 
-/// The light that reaches points of a primitive and leaves them against `direction`.
+/// The light that reaches points of a primitive and leaves them against `direction`. A render that is stopped
+/// gets the light of the lamps so far.
 #[inline(always)]
 fn light<S: Simd>(
     simd: S,
     scene: &Integrator,
     primitive: usize,
-    point: Vec3<S>,
-    normal: Vec3<S>,
-    direction: Vec3<S>,
+    [point, normal, direction]: [Vec3<S>; 3],
+    control: &Control,
 ) -> Vec3<S> {
     let material = &scene.materials[primitive];
     let mut sum = Vec3::splat(simd, DVec3::ZERO);
     let mut color = None;
     for source in &scene.lights {
+        if control.is_cancelled() {
+            break;
+        }
         match *source {
             Light::Ambient { intensity } => sum = sum.add(Vec3::splat_rgb(simd, intensity)),
             Light::Point { position, intensity } => {
