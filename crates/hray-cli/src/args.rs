@@ -85,7 +85,7 @@ pub(crate) struct CommonArgs {
     #[arg(long, value_name = "FILE")]
     pub noise_tables: Option<PathBuf>,
     /// How many threads to use; changes no pixel [default: as many as the machine has]
-    #[arg(long, value_name = "N", value_parser = values::threads)]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = values::threads)]
     pub threads: Option<NonZeroUsize>,
 }
 
@@ -101,16 +101,16 @@ pub(crate) struct RenderArgs {
     #[arg(short, long)]
     pub output: Option<PathBuf>,
     /// The size of the picture, instead of the scene's; the camera's window stays
-    #[arg(long, value_name = "WxH", value_parser = values::size)]
+    #[arg(long, value_name = "WxH", allow_hyphen_values = true, value_parser = values::size)]
     pub size: Option<Resolution>,
     /// How many times a ray may be reflected or refracted, -1 to 10000, instead of the scene's number
     #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = values::depth)]
     pub depth: Option<Depth>,
     /// Samples a pixel, 1 to 65536: more give smoother edges [default: 1, as in 2005]
-    #[arg(long, value_name = "N", value_parser = values::samples)]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = values::samples)]
     pub samples: Option<NonZeroU32>,
     /// Render only a part: X,Y is its upper left pixel, counted from the upper left
-    #[arg(long, value_name = "X,Y,W,H", value_parser = values::region)]
+    #[arg(long, value_name = "X,Y,W,H", allow_hyphen_values = true, value_parser = values::region)]
     pub region: Option<[u32; 4]>,
     #[command(flatten)]
     pub common: CommonArgs,

@@ -12,6 +12,7 @@ mod classic;
 mod console;
 mod failure;
 mod generate;
+mod hints;
 mod info;
 mod interrupt;
 mod job;
@@ -36,7 +37,7 @@ fn main() -> ExitCode {
 }
 
 fn run(console: &Console) -> Result<(), Failure> {
-    let cli = Cli::try_parse()?;
+    let cli = Cli::try_parse().map_err(hints::explain)?;
     match &cli.command {
         None => classic::run(&cli.classic, console),
         Some(Command::Render(arguments)) => render::run(arguments, console),

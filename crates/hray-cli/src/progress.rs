@@ -5,7 +5,7 @@ use hray::Control;
 use indicatif::{HumanDuration, ProgressBar, ProgressStyle};
 use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::thread;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 /// A render that is done before this passes needs no bar.
 const PATIENCE: Duration = Duration::from_millis(300);
@@ -23,6 +23,7 @@ pub(crate) fn watching<T>(
     if !console.is_interactive() {
         return render();
     }
+    let start = Instant::now();
     thread::scope(|scope| {
         let (done, wait) = channel::<()>();
         // Where no thread can be had for the bar, there is no bar.
@@ -35,11 +36,13 @@ pub(crate) fn watching<T>(
                 bar.set_style(style.progress_chars("=> "));
             }
             loop {
-                bar.set_position(control.pixels_done().min(pixels));
-                bar.set_message(match bar.eta() {
+                let done = control.pixels_done().min(pixels);
+                bar.set_position(done);
+                bar.set_message(match time_left(start.elapsed(), done, pixels) {
                     _ if control.is_cancelled() => "stopping".to_owned(),
-                    left if left < Duration::from_secs(1) => "a moment left".to_owned(),
-                    left => format!("{} left", HumanDuration(left)),
+                    None => "time unknown".to_owned(),
+                    Some(left) if left < Duration::from_secs(1) => "a moment left".to_owned(),
+                    Some(left) => format!("{} left", HumanDuration(left)),
                 });
                 if !matches!(wait.recv_timeout(REFRESH), Err(RecvTimeoutError::Timeout)) {
                     break;
@@ -51,4 +54,26 @@ pub(crate) fn watching<T>(
         drop(done);
         result
     })
+}
+
+/// What the rest takes at the pace so far; so it grows while nothing is done.
+fn time_left(elapsed: Duration, done: u64, total: u64) -> Option<Duration> {
+    let rest = total.saturating_sub(done) as f64 / done as f64;
+    // Infinite, or no number, where nothing is done.
+    Duration::try_from_secs_f64(elapsed.as_secs_f64() * rest).ok()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_time_left_grows_while_nothing_is_done() {
+        let left = |elapsed, done| time_left(Duration::from_secs(elapsed), done, 100);
+        assert_eq!((left(10, 0), left(10, 100)), (None, Some(Duration::ZERO)));
+        assert_eq!(
+            (left(10, 50), left(20, 50)),
+            (Some(Duration::from_secs(10)), Some(Duration::from_secs(20)))
+        );
+    }
 }

@@ -13,11 +13,14 @@ use std::path::{Path, PathBuf};
 pub(crate) fn run(arguments: &RenderArgs, console: &Console) -> Result<(), Failure> {
     let input = Input::from_argument(arguments.input.clone());
     let output = output_name(arguments, &input)?;
+    let read = || job::read_scene(&input, &arguments.lints.levels, console);
+    // A name that is made from the scene's is only as good as that one.
+    let early = if arguments.output.is_none() { Some(read()?) } else { None };
     let destination = destination(&output)?;
     let format = format(arguments, &output, &destination, console)?;
     job::check_not_an_input(&output, &input, &arguments.common)?;
 
-    let description = job::read_scene(&input, &arguments.lints.levels, console)?;
+    let description = early.map_or_else(read, Ok)?;
     let options = Options {
         size: arguments.size,
         max_depth: arguments.depth,

@@ -19,7 +19,7 @@ pub(crate) fn of(job: &Job<'_>, statistics: &Statistics, time: Duration) -> Stri
     format!(
         "{name}: {size} {}, {}, {}\n\
          {} rays: {} camera, {} shadow, {} reflection, {} refraction\n\
-         {seconds:.3} s with {}, {} rays per second\n",
+         {} with {}, {} rays per second\n",
         job.format,
         counted(scene.primitives.len(), "object"),
         counted(scene.lights.len(), "light"),
@@ -28,9 +28,15 @@ pub(crate) fn of(job: &Job<'_>, statistics: &Statistics, time: Duration) -> Stri
         grouped(rays.shadow),
         grouped(rays.reflection),
         grouped(rays.refraction),
+        duration(seconds),
         counted(statistics.threads, "thread"),
         grouped((rays.total() as f64 / seconds.max(1e-9)) as u64),
     )
+}
+
+/// `12.3 ms`, `1.234 s`.
+fn duration(seconds: f64) -> String {
+    if seconds < 0.1 { format!("{:.1} ms", seconds * 1e3) } else { format!("{seconds:.3} s") }
 }
 
 /// "no lights", "1 light", "2 lights".
@@ -58,6 +64,11 @@ pub(crate) fn grouped(number: u64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn short_times_are_in_milliseconds() {
+        assert_eq!([duration(0.00123), duration(0.1), duration(2.5)], ["1.2 ms", "0.100 s", "2.500 s"]);
+    }
 
     #[test]
     fn numbers_are_readable() {

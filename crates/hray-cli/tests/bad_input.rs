@@ -50,7 +50,9 @@ fn what_is_no_file_is_called_by_its_name() {
     for form in ["render none.hry", "none.hry a.ppm", "check none.hry", "info none.hry"] {
         folder.run(form).says(1, &["cannot read `none.hry`: there is no such file"]);
     }
-    folder.run("render scene.hry/x").says(1, &["cannot "]);
+    folder.run("render scene.hry/x").says(1, &["cannot read `scene.hry/x`"]);
+    folder.run("render no/x.hry").says(1, &["cannot read `no/x.hry`: there is no such file"]);
+    folder.run(&format!("render {}.hry", "x".repeat(300))).says(1, &["cannot read `xxx"]);
     folder.run("render scene.hry --noise-tables dir").says(1, &["cannot read `dir`: it is a directory"]);
     assert_eq!(folder.names(), ["dir", "scene.hry"]);
 }
@@ -96,7 +98,15 @@ fn strange_arguments_are_only_wrong() {
     let folder = Folder::new();
     folder.run("--nothing").says(2, &["unexpected argument"]);
     folder.run("render").says(2, &["<INPUT>"]);
-    folder.run("render scene.hry extra").says(2, &["unexpected argument 'extra'"]);
+    folder
+        .run("render scene.hry extra")
+        .says(2, &["unexpected argument `extra`; to name the picture write `-o extra`"]);
+    folder.run("render a.hry x.png").says(2, &["to name the picture write `-o x.png`"]);
+    folder.run("render a.hry b.hry").says(2, &["call hray for each"]);
+    folder.run("render scene.hry --region -1,0,1,1").says(2, &["a region is four whole numbers"]);
+    folder.run("render scene.hry --samples -1").says(2, &["a number of samples goes from"]);
+    folder.run("render scene.hry --threads -1").says(2, &["a number of threads goes from"]);
+    folder.run("render scene.hry --size -4x3").says(2, &["--size"]);
     folder.run("render scene.hry --size").says(2, &["--size"]);
     folder
         .run("--threads 2 render scene.hry")

@@ -72,3 +72,19 @@ fn a_command_with_a_typo_is_not_taken_for_a_scene() {
     folder.write("rendr", common::SCENE);
     folder.run("rendr a.ppm").says(0, &[]);
 }
+
+#[test]
+fn options_of_render_are_answered_with_the_line_that_takes_them() {
+    let folder = Folder::new();
+    for option in
+        ["--samples 4", "--size 4x3", "--depth -1", "--region 0,0,1,1", "--quiet", "-q", "--format ppm"]
+    {
+        let name = option.split(' ').next().unwrap();
+        let no = format!("the classic form takes no {name}; ");
+        let line = format!("`hray render a.hry -o o.ppm {name} ...`");
+        folder.run(&format!("a.hry o.ppm {option}")).says(2, &[&no, &line]);
+        folder.run(&format!("{option} a.hry o.ppm")).says(2, &[&no, &line]);
+    }
+    folder.run("a.hry -o o.ppm").says(2, &["takes no -o; use `hray render a.hry -o o.ppm`"]);
+    folder.run("a.hry o.ppm --nothing").says(2, &["unexpected argument '--nothing'"]);
+}

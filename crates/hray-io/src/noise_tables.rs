@@ -53,6 +53,15 @@ impl fmt::Display for TablesError {
                     Quoted(path)
                 )
             }
+            Self::Content { path, error: NoiseTablesError::Repeated { table, value } } if *table < 3 => {
+                write!(
+                    f,
+                    "the noise tables {} cannot be used: `{}` holds the value {value} twice; it must hold each of \
+                     0 to 255 once",
+                    Quoted(path),
+                    KEYS[*table]
+                )
+            }
             Self::Content { path, error } => {
                 write!(f, "the noise tables {} cannot be used: {error}", Quoted(path))
             }
@@ -86,6 +95,13 @@ pub fn read_noise_tables(path: &Path) -> Result<NoiseTables, TablesError> {
 /// # Errors
 /// [`TablesError`] where the text does not hold what it must.
 pub fn parse_noise_tables(json: &[u8], name: &Path) -> Result<NoiseTables, TablesError> {
+    if json.trim_ascii().is_empty() {
+        return Err(TablesError::Form {
+            path: name.to_owned(),
+            place: (1, 1),
+            message: format!("the file is empty; expected an object with the keys {}", KEYS.join(", ")),
+        });
+    }
     let mut deserializer = serde_json::Deserializer::from_slice(json);
     let (permutations, gradients) = deserializer
         .deserialize_map(TablesVisitor)
@@ -301,7 +317,11 @@ mod tests {
         });
         assert!(missing.contains("the key `permutation3` is missing"), "{missing}");
         let twice = with(&|v| v["permutation"][0] = v["permutation"][1].clone());
-        assert!(twice.contains("twice; it must hold each of 0 to 255 once"), "{twice}");
+        assert!(
+            twice.contains("`permutation` holds the value ")
+                && twice.contains("twice; it must hold each of 0 to 255 once"),
+            "{twice}"
+        );
         assert!(
             message(&serde_json::json!([1, 2])).contains("expected an object with the keys permutation, ")
         );
@@ -311,7 +331,11 @@ mod tests {
     fn syntax_errors_have_their_place() {
         let error = parse_noise_tables(b"{\n  \"permutation\": [1, 2,\n x", Path::new("t.json")).unwrap_err();
         assert!(error.to_string().contains("line 3, column 2: "), "{error}");
-        assert!(parse_noise_tables(b"", Path::new("t.json")).unwrap_err().to_string().contains("EOF"));
+        let empty = parse_noise_tables(b" \n", Path::new("t.json")).unwrap_err().to_string();
+        assert!(
+            empty.contains("the file is empty; expected an object with the keys permutation, "),
+            "{empty}"
+        );
         let brackets = "[".repeat(1 << 20);
         assert!(parse_noise_tables(brackets.as_bytes(), Path::new("t.json")).is_err());
     }
