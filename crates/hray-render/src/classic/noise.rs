@@ -178,25 +178,40 @@ impl Noise {
                 (g[0][lane], g[1][lane], g[2][lane]) = (pair[0], pair[1], pair[2]);
                 (g[3][lane], g[4][lane], g[5][lane]) = (pair[4], pair[5], pair[6]);
             }
-            let lanes = |i: usize| Lanes::<S>::from_slice(simd, &g[i][..Lanes::<S>::LEN]);
-            return [lanes(0), lanes(1), lanes(2), lanes(3), lanes(4), lanes(5)];
+            let len = Lanes::<S>::LEN;
+            return [
+                Lanes::<S>::from_slice(simd, &g[0][..len]),
+                Lanes::<S>::from_slice(simd, &g[1][..len]),
+                Lanes::<S>::from_slice(simd, &g[2][..len]),
+                Lanes::<S>::from_slice(simd, &g[3][..len]),
+                Lanes::<S>::from_slice(simd, &g[4][..len]),
+                Lanes::<S>::from_slice(simd, &g[5][..len]),
+            ];
         }
-        // Eight rows of eight numbers, transposed by interleaving three times.
-        let row = |lane: usize| f64x8::from_slice(simd, self.pair(edges[lane][edge]));
-        let (a0, a1) = (row(0), row(4));
-        let (b0, b1) = (row(1), row(5));
-        let (c0, c1) = (row(2), row(6));
-        let (d0, d1) = (row(3), row(7));
-        let half = |low: bool| {
-            let zip = |v: f64x8<S>, w: f64x8<S>| if low { v.zip_low(w) } else { v.zip_high(w) };
-            let (ac, bd) = ((zip(a0, a1), zip(c0, c1)), (zip(b0, b1), zip(d0, d1)));
-            let (xy0, xy1) = (ac.0.zip_low(ac.1), bd.0.zip_low(bd.1));
-            let (zw0, zw1) = (ac.0.zip_high(ac.1), bd.0.zip_high(bd.1));
-            [xy0.zip_low(xy1), xy0.zip_high(xy1), zw0.zip_low(zw1)]
-        };
-        let ([x0, y0, z0], [x1, y1, z1]) = (half(true), half(false));
-        let lanes = |v: f64x8<S>| Lanes::<S>::from_slice(simd, &v.as_slice()[..Lanes::<S>::LEN]);
-        [lanes(x0), lanes(y0), lanes(z0), lanes(x1), lanes(y1), lanes(z1)]
+        let rows = [
+            self.row(simd, edges[0][edge]),
+            self.row(simd, edges[1][edge]),
+            self.row(simd, edges[2][edge]),
+            self.row(simd, edges[3][edge]),
+            self.row(simd, edges[4][edge]),
+            self.row(simd, edges[5][edge]),
+            self.row(simd, edges[6][edge]),
+            self.row(simd, edges[7][edge]),
+        ];
+        let [x0, y0, z0, x1, y1, z1] = transposed(rows);
+        [
+            native(simd, x0),
+            native(simd, y0),
+            native(simd, z0),
+            native(simd, x1),
+            native(simd, y1),
+            native(simd, z1),
+        ]
+    }
+
+    #[inline(always)]
+    fn row<S: Simd>(&self, simd: S, edge: u16) -> f64x8<S> {
+        f64x8::from_slice(simd, self.pair(edge))
     }
 
     /// Noise at one point given in cells: the definition, for coordinates that the lanes cannot take.
@@ -234,14 +249,11 @@ impl Noise {
         let cells = Vec3::<S> { x: p.x / grid, y: p.y / grid, z: p.z / grid };
         let top = (1u64 << octaves.min(MAX_OCTAVES)) as f64;
         let fit = fits::<S>(cells.x, top) & fits::<S>(cells.y, top) & fits::<S>(cells.z, top);
-        let finite = (p.x.abs() * top).simd_lt(HUGE)
-            & (p.y.abs() * top).simd_lt(HUGE)
-            & (p.z.abs() * top).simd_lt(HUGE);
-        if octaves > MAX_OCTAVES || !(fit & finite).all_true() {
+        let size = p.x.abs() + p.y.abs() + p.z.abs();
+        if octaves > MAX_OCTAVES || !(fit & (size * top).simd_lt(HUGE)).all_true() {
             let mut total = [0.0; MAX_LANES];
             for (lane, total) in total.iter_mut().enumerate().take(Lanes::<S>::LEN) {
-                let p = [p.x[lane], p.y[lane], p.z[lane]];
-                *total = self.octaves_one(table, p, grid, octaves, sum);
+                *total = self.octaves_one(table, [p.x[lane], p.y[lane], p.z[lane]], grid, octaves, sum);
             }
             return Lanes::<S>::from_slice(simd, &total[..Lanes::<S>::LEN]);
         }
@@ -260,6 +272,8 @@ impl Noise {
     }
 
     /// [`Noise::octaves`] at one point, as the definition has it.
+    #[cold]
+    #[inline(never)]
     fn octaves_one(&self, table: usize, p: [f64; 3], grid: f64, octaves: u32, sum: Sum) -> f64 {
         if octaves >= 1024 {
             // 2^1024 is infinite, and noise is not a number there.
@@ -274,6 +288,34 @@ impl Noise {
         }
         total
     }
+}
+
+/// The first three and the fifth to seventh column of eight rows of eight numbers, by interleaving three times.
+#[inline(always)]
+fn transposed<S: Simd>(rows: [f64x8<S>; 8]) -> [f64x8<S>; 6] {
+    let [r0, r1, r2, r3, r4, r5, r6, r7] = rows;
+    let (even0, odd0) = (r0.zip_low(r4), r1.zip_low(r5));
+    let (even1, odd1) = (r2.zip_low(r6), r3.zip_low(r7));
+    let (xy_even, xy_odd) = (even0.zip_low(even1), odd0.zip_low(odd1));
+    let (zw_even, zw_odd) = (even0.zip_high(even1), odd0.zip_high(odd1));
+    let (even2, odd2) = (r0.zip_high(r4), r1.zip_high(r5));
+    let (even3, odd3) = (r2.zip_high(r6), r3.zip_high(r7));
+    let (xy_even1, xy_odd1) = (even2.zip_low(even3), odd2.zip_low(odd3));
+    let (zw_even1, zw_odd1) = (even2.zip_high(even3), odd2.zip_high(odd3));
+    [
+        xy_even.zip_low(xy_odd),
+        xy_even.zip_high(xy_odd),
+        zw_even.zip_low(zw_odd),
+        xy_even1.zip_low(xy_odd1),
+        xy_even1.zip_high(xy_odd1),
+        zw_even1.zip_low(zw_odd1),
+    ]
+}
+
+/// Eight lanes as a native vector, which is that wide wherever this is called.
+#[inline(always)]
+fn native<S: Simd>(simd: S, v: f64x8<S>) -> Lanes<S> {
+    Lanes::<S>::from_slice(simd, &v.as_slice()[..Lanes::<S>::LEN])
 }
 
 /// The smooth step 3t² - 2t³, as written in appendix A.3.
