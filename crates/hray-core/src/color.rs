@@ -54,3 +54,9 @@ impl Mul<f64> for Rgb {
         Self { r: self.r * factor, g: self.g * factor, b: self.b * factor }
     }
 }
+
+impl From<Rgb> for [f64; 3] {
+    fn from(color: Rgb) -> Self {
+        color.to_array()
+    }
+}

@@ -2,6 +2,7 @@
 
 use crate::Scene;
 use std::fmt;
+use std::num::NonZeroU32;
 
 /// The lowest recursion depth: it traces nothing and gives a black picture.
 pub const MIN_DEPTH: i32 = -1;
@@ -57,13 +58,40 @@ impl fmt::Display for Resolution {
     }
 }
 
-/// What a scene file says: the thesis' `RenderDescr` (appendix A.5).
+/// How light is followed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Integrator {
+    /// The thesis' integrator to the bit, its absolute constants (1e-6, 1e-9) and its quirks included.
+    Classic2005,
+    /// The same kinds of light without absolute constants: rays start outside the error bounds of the hit they
+    /// leave. Mirrors and glass show the background, rays that leave glass obey Snell's law, ambient light is
+    /// coloured by the surface, and surfaces are lit from the side they are seen from.
+    Classic,
+}
+
+/// What becomes of a colour on its way into a picture file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Encoding {
+    /// Nothing: the numbers pass through.
+    Raw,
+    /// Colours are linear light, and are encoded by the transfer function of sRGB (IEC 61966-2-1). Formats that
+    /// hold linear light (OpenEXR) take them as they are.
+    Srgb,
+}
+
+/// What a scene file says: the thesis' `RenderDescr` (appendix A.5), and what it left open.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Description {
     /// The size of the picture.
     pub resolution: Resolution,
     /// How many times a ray may be reflected or refracted, [`MIN_DEPTH`] to [`MAX_DEPTH`].
     pub max_depth: i32,
+    /// Samples a pixel, unless the render asks for another number.
+    pub samples: NonZeroU32,
+    /// How light is followed.
+    pub integrator: Integrator,
+    /// What becomes of a colour on its way into a picture file.
+    pub encoding: Encoding,
     /// The scene.
     pub scene: Scene,
 }

@@ -10,20 +10,23 @@
 mod camera;
 mod color;
 mod description;
+mod field;
 mod light;
 mod material;
-mod noise_tables;
 mod scene;
 mod shape;
 mod texture;
 
-pub use camera::WindowCamera;
+pub use camera::{Camera, OrthographicCamera, PerspectiveCamera, WindowCamera};
 pub use color::Rgb;
-pub use description::{Description, DescriptionError, MAX_DEPTH, MAX_PIXELS, MIN_DEPTH, Resolution};
-pub use glam::DVec3;
+pub use description::{
+    Description, DescriptionError, Encoding, Integrator, MAX_DEPTH, MAX_PIXELS, MIN_DEPTH, Resolution,
+};
+pub use field::Field;
+pub use glam::{DAffine3, DMat3, DVec2, DVec3};
+pub use hray_expr::{Function, Image, NoiseTables, NoiseTablesError};
 pub use light::Light;
 pub use material::Material;
-pub use noise_tables::{NoiseTables, NoiseTablesError};
-pub use scene::{Primitive, Scene};
-pub use shape::{Plane, Shape, Sphere};
+pub use scene::{Background, Primitive, Scene};
+pub use shape::{Csg, CsgOperation, Cuboid, Plane, Shape, Sphere};
 pub use texture::{NoiseTexture, Texture};

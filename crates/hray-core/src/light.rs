@@ -19,4 +19,25 @@ pub enum Light {
         /// Intensity per component.
         intensity: Rgb,
     },
+    /// Shines from infinitely far away.
+    Directional {
+        /// The direction in which its light travels, in world space; a unit vector.
+        direction: DVec3,
+        /// Intensity per component.
+        intensity: Rgb,
+    },
+    /// Shines from one point into a cone, with no loss over distance.
+    Spot {
+        /// World-space position.
+        position: DVec3,
+        /// The axis of the cone, away from the light; a unit vector.
+        axis: DVec3,
+        /// Cosine of the angle from the axis up to which the light is full.
+        cos_inner: f64,
+        /// Cosine of the angle from the axis beyond which there is none; at most `cos_inner`. Between the two the
+        /// light falls off smoothly (3t² - 2t³ in the cosine).
+        cos_outer: f64,
+        /// Intensity per component on the axis.
+        intensity: Rgb,
+    },
 }

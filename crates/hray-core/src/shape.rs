@@ -1,6 +1,8 @@
 //! What can be hit.
 
+use crate::Primitive;
 use glam::DVec3;
+use std::sync::Arc;
 
 /// A sphere: all points at distance |radius| from the centre. Thesis §2.2.2.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -20,11 +22,46 @@ pub struct Plane {
     pub offset: f64,
 }
 
-/// The geometry of a primitive: the thesis' `Object`.
+/// A box with sides along the axes: all points between two corners.
 #[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Cuboid {
+    /// The corner with the smallest coordinates, in object space.
+    pub min: DVec3,
+    /// The corner with the largest coordinates.
+    pub max: DVec3,
+}
+
+/// How two solids make one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum CsgOperation {
+    /// What is inside either.
+    Union,
+    /// What is inside both.
+    Intersection,
+    /// What is inside the first and not inside the second.
+    Difference,
+}
+
+/// Constructive solid geometry: a solid made of two. Each keeps its own material; where the second is cut away, its
+/// surface, turned inside out, is what is seen. The inside of a plane is the half space that its normal leads away
+/// from.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Csg {
+    /// How.
+    pub operation: CsgOperation,
+    /// Of what.
+    pub operands: [Primitive; 2],
+}
+
+/// The geometry of a primitive: the thesis' `Object`.
+#[derive(Clone, Debug, PartialEq)]
 pub enum Shape {
     /// A sphere.
     Sphere(Sphere),
     /// An infinite plane.
     Plane(Plane),
+    /// A box.
+    Cuboid(Cuboid),
+    /// A solid made of two.
+    Csg(Arc<Csg>),
 }

@@ -2,14 +2,18 @@
 
 use crate::Rgb;
 use glam::DVec3;
+use hray_expr::Function;
+use std::sync::Arc;
 
 /// The diffuse colour of a material: the thesis' `Diff` (§3.3).
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Texture {
     /// The same everywhere.
     Solid(Rgb),
-    /// A function of the point, made of Perlin's noise of 1985.
+    /// One of the eight textures of 2005, made of Perlin's noise of 1985, at the object-space position.
     Noise(NoiseTexture),
+    /// Any function of the hit. Three outputs: red, green, blue.
+    Function(Arc<Function>),
 }
 
 /// The eight noise textures of thesis §3.4 and appendix A.3.

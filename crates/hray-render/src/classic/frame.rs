@@ -1,6 +1,6 @@
 //! One level of the recursion: a batch of rays, what they hit, and what is still owed to them.
 
-use super::lanes::MAX_LANES;
+use hray_expr::kernels::lanes::MAX_LANES;
 
 /// Columns of doubles that grow together.
 pub(super) struct Columns<const N: usize> {

@@ -6,11 +6,7 @@
 //! above. The levels are a list, not the call stack: the deepest recursion allowed costs memory, not a crash.
 
 mod frame;
-mod lanes;
-mod noise;
-mod power;
 mod shapes;
-mod sine;
 mod steps;
 mod texture;
 
@@ -18,8 +14,8 @@ use crate::{Control, RayCounts};
 use fearless_simd::{Level, dispatch};
 use frame::{Background, Frame, Phase};
 use hray_core::{Light, Material, NoiseTables, Rgb, Scene, WindowCamera};
-use lanes::MAX_LANES;
-use noise::Noise;
+use hray_expr::kernels::lanes::MAX_LANES;
+use hray_expr::kernels::noise::Noise;
 use shapes::Prepared;
 
 /// The most rays a batch is made of: enough to fill vectors after grouping, few enough to stay in cache.

@@ -1,6 +1,6 @@
 //! Rays against shapes, several rays at a time: `intRayWith`, `fstPos` and `normal` of appendix A.1 and A.2.
 
-use super::lanes::{Lanes, Mask, Vec3};
+use hray_expr::kernels::lanes::{Lanes, Mask, Vec3};
 use fearless_simd::prelude::*;
 use hray_core::{DVec3, Shape};
 

@@ -2,8 +2,8 @@
 
 use super::Integrator;
 use super::frame::{Background, Frame, Group, NOTHING};
-use super::lanes::{Lanes, Mask, Vec3, consecutive, gather};
-use super::power::power;
+use hray_expr::kernels::lanes::{Lanes, Mask, Vec3, consecutive, gather};
+use hray_expr::kernels::power::power;
 use super::shapes::{Prepared, Rays};
 use super::texture::color_at;
 use crate::Control;
@@ -103,7 +103,7 @@ fn light<S: Simd>(
             break;
         }
         match *source {
-            Light::Ambient { intensity } => sum = sum.add(Vec3::splat_rgb(simd, intensity)),
+            Light::Ambient { intensity } => sum = sum.add(Vec3::splat(simd, intensity)),
             Light::Point { position, intensity } => {
                 let (to_light, distance) = Vec3::splat(simd, position).sub(point).norm(simd);
                 let dark = shadowed(simd, &scene.shapes, &Rays::new(point, to_light), distance);
@@ -114,7 +114,7 @@ fn light<S: Simd>(
                     Some(color) => color,
                     None => *color.insert(color_at(simd, &scene.noise, &material.texture, point)),
                 };
-                let intensity = Vec3::splat_rgb(simd, intensity);
+                let intensity = Vec3::splat(simd, intensity);
                 let diffuse = intensity.scale(to_light.dot(normal)).mul(color);
                 let lit = match highlight(simd, material, normal, direction, to_light) {
                     Some(factor) => diffuse.add(intensity.scale(factor)),

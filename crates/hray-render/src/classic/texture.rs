@@ -1,8 +1,8 @@
 //! The colour of a surface, several points at a time: `colorAt`, and the textures of appendix A.3.
 
-use super::lanes::{Lanes, Vec3};
-use super::noise::{Noise, Sum};
-use super::sine::sine;
+use hray_expr::kernels::lanes::{Lanes, Vec3};
+use hray_expr::kernels::noise::{Noise, Sum};
+use hray_expr::kernels::sine::sine;
 use fearless_simd::prelude::*;
 use hray_core::{DVec3, NoiseTexture, Rgb, Texture};
 
@@ -10,7 +10,7 @@ use hray_core::{DVec3, NoiseTexture, Rgb, Texture};
 #[inline(always)]
 pub(super) fn color_at<S: Simd>(simd: S, noise: &Noise, texture: &Texture, p: Vec3<S>) -> Vec3<S> {
     match *texture {
-        Texture::Solid(color) => Vec3::splat_rgb(simd, color),
+        Texture::Solid(color) => Vec3::splat(simd, color),
         Texture::Noise(NoiseTexture::Plasma { grid }) => Vec3 {
             x: half::<S>(noise.octaves(simd, 0, p, grid, 0, Sum::Signed)),
             y: half::<S>(noise.octaves(simd, 1, p, grid, 0, Sum::Signed)),
@@ -42,15 +42,15 @@ fn spectrum(texture: &NoiseTexture) -> (f64, u32, Sum) {
 fn colored<S: Simd>(simd: S, texture: &NoiseTexture, p: Vec3<S>, sum: Lanes<S>) -> Vec3<S> {
     match *texture {
         NoiseTexture::Solid { base, .. } | NoiseTexture::SemiTurbulence { base, .. } => {
-            Vec3::splat_rgb(simd, base).scale(half::<S>(sum))
+            Vec3::splat(simd, base).scale(half::<S>(sum))
         }
-        NoiseTexture::Turbulence { base, .. } => Vec3::splat_rgb(simd, base).scale(sum),
+        NoiseTexture::Turbulence { base, .. } => Vec3::splat(simd, base).scale(sum),
         NoiseTexture::Fire { added, base, .. } => {
-            Vec3::splat_rgb(simd, added).add(Vec3::splat_rgb(simd, base).scale(sum)).clip(simd)
+            Vec3::splat(simd, added).add(Vec3::splat(simd, base).scale(sum)).clip(simd)
         }
         NoiseTexture::Marble { base, direction, power, .. } => marble(simd, base, direction, power, p, sum),
         NoiseTexture::MarbleBase { base, added, direction, power, .. } => {
-            Vec3::splat_rgb(simd, added).add(marble(simd, base, direction, power, p, sum)).clip(simd)
+            Vec3::splat(simd, added).add(marble(simd, base, direction, power, p, sum)).clip(simd)
         }
         NoiseTexture::Wood { base, rings, power, .. } => wood(simd, base, rings, power, p, sum),
         // Made of three noises, above.
@@ -74,13 +74,13 @@ fn marble<S: Simd>(
     turbulence: Lanes<S>,
 ) -> Vec3<S> {
     let across = p.x * direction.x + p.y * direction.y + p.z * direction.z;
-    Vec3::splat_rgb(simd, base).scale(half::<S>(sine(simd, across + turbulence * power)))
+    Vec3::splat(simd, base).scale(half::<S>(sine(simd, across + turbulence * power)))
 }
 
 #[inline(always)]
 fn wood<S: Simd>(simd: S, base: Rgb, rings: f64, power: f64, p: Vec3<S>, turbulence: Lanes<S>) -> Vec3<S> {
     let wave = sine(simd, (p.dot(p).sqrt() + turbulence * power) * rings).abs() * 0.25;
-    let base = Vec3::splat_rgb(simd, base);
+    let base = Vec3::splat(simd, base);
     let lightened = Vec3 { x: base.x + wave, y: base.y + wave, z: base.z + wave }.clip(simd);
     // The wave never exceeds 1/4; only NaN takes the other branch.
     let light = wave.simd_lt(0.5);

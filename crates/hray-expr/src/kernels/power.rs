@@ -45,7 +45,7 @@ const P: [f64; 5] = [
 
 /// Each lane to the power `exponent`, a whole number.
 #[inline(always)]
-pub(super) fn power<S: Simd>(simd: S, base: Lanes<S>, exponent: f64) -> Lanes<S> {
+pub fn power<S: Simd>(simd: S, base: Lanes<S>, exponent: f64) -> Lanes<S> {
     let size = base.abs();
     // Not zero, subnormal, infinite or not a number.
     let ordinary = size.simd_ge(f64::MIN_POSITIVE) & size.simd_lt(f64::INFINITY);

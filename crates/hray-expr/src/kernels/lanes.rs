@@ -5,45 +5,37 @@
 //! inlined into a dispatched function is compiled for the machine's instruction set.
 
 use fearless_simd::prelude::*;
-use hray_core::{DVec3, Rgb};
 
 /// As many doubles as the machine handles at once.
-pub(super) type Lanes<S> = <S as Simd>::f64s;
+pub type Lanes<S> = <S as Simd>::f64s;
 /// One truth value per lane.
-pub(super) type Mask<S> = <S as Simd>::mask64s;
+pub type Mask<S> = <S as Simd>::mask64s;
 
 /// The widest vector of any machine; buffers are padded to a multiple of it.
-pub(super) const MAX_LANES: usize = 8;
+pub const MAX_LANES: usize = 8;
 
 /// Lengths below this count as zero (appendix A.1, `norm`).
 const ZERO_LENGTH: f64 = 1e-9;
 
 /// Points, directions or colours, one per lane.
 #[derive(Clone, Copy)]
-pub(super) struct Vec3<S: Simd> {
-    pub(super) x: Lanes<S>,
-    pub(super) y: Lanes<S>,
-    pub(super) z: Lanes<S>,
+pub struct Vec3<S: Simd> {
+    pub x: Lanes<S>,
+    pub y: Lanes<S>,
+    pub z: Lanes<S>,
 }
 
 impl<S: Simd> Vec3<S> {
+    /// The same three numbers in every lane.
     #[inline(always)]
-    pub(super) fn splat(simd: S, v: DVec3) -> Self {
-        Self {
-            x: Lanes::<S>::splat(simd, v.x),
-            y: Lanes::<S>::splat(simd, v.y),
-            z: Lanes::<S>::splat(simd, v.z),
-        }
-    }
-
-    #[inline(always)]
-    pub(super) fn splat_rgb(simd: S, c: Rgb) -> Self {
-        Self::splat(simd, DVec3::new(c.r, c.g, c.b))
+    pub fn splat(simd: S, v: impl Into<[f64; 3]>) -> Self {
+        let [x, y, z] = v.into();
+        Self { x: Lanes::<S>::splat(simd, x), y: Lanes::<S>::splat(simd, y), z: Lanes::<S>::splat(simd, z) }
     }
 
     /// The lanes that start at `start` of three columns.
     #[inline(always)]
-    pub(super) fn load(simd: S, [x, y, z]: [&[f64]; 3], start: usize) -> Self {
+    pub fn load(simd: S, [x, y, z]: [&[f64]; 3], start: usize) -> Self {
         let end = start + Lanes::<S>::LEN;
         Self {
             x: Lanes::<S>::from_slice(simd, &x[start..end]),
@@ -54,12 +46,12 @@ impl<S: Simd> Vec3<S> {
 
     /// One lane from each of the given places of three columns.
     #[inline(always)]
-    pub(super) fn gather(simd: S, [x, y, z]: [&[f64]; 3], places: &[u32]) -> Self {
+    pub fn gather(simd: S, [x, y, z]: [&[f64]; 3], places: &[u32]) -> Self {
         Self { x: gather(simd, x, places), y: gather(simd, y, places), z: gather(simd, z, places) }
     }
 
     #[inline(always)]
-    pub(super) fn store(self, [x, y, z]: [&mut [f64]; 3], start: usize) {
+    pub fn store(self, [x, y, z]: [&mut [f64]; 3], start: usize) {
         let end = start + Lanes::<S>::LEN;
         self.x.store_slice(&mut x[start..end]);
         self.y.store_slice(&mut y[start..end]);
@@ -67,34 +59,34 @@ impl<S: Simd> Vec3<S> {
     }
 
     #[inline(always)]
-    pub(super) fn add(self, o: Self) -> Self {
+    pub fn add(self, o: Self) -> Self {
         Self { x: self.x + o.x, y: self.y + o.y, z: self.z + o.z }
     }
 
     #[inline(always)]
-    pub(super) fn sub(self, o: Self) -> Self {
+    pub fn sub(self, o: Self) -> Self {
         Self { x: self.x - o.x, y: self.y - o.y, z: self.z - o.z }
     }
 
     #[inline(always)]
-    pub(super) fn mul(self, o: Self) -> Self {
+    pub fn mul(self, o: Self) -> Self {
         Self { x: self.x * o.x, y: self.y * o.y, z: self.z * o.z }
     }
 
     #[inline(always)]
-    pub(super) fn scale(self, f: Lanes<S>) -> Self {
+    pub fn scale(self, f: Lanes<S>) -> Self {
         Self { x: self.x * f, y: self.y * f, z: self.z * f }
     }
 
     #[inline(always)]
-    pub(super) fn dot(self, o: Self) -> Lanes<S> {
+    pub fn dot(self, o: Self) -> Lanes<S> {
         self.x * o.x + self.y * o.y + self.z * o.z
     }
 
     /// The direction of `self`, and its length: `norm` and `len` of appendix A.1. A vector shorter than 1e-9
     /// has no direction and becomes zero.
     #[inline(always)]
-    pub(super) fn norm(self, simd: S) -> (Self, Lanes<S>) {
+    pub fn norm(self, simd: S) -> (Self, Lanes<S>) {
         let length = self.dot(self).sqrt();
         let one = Lanes::<S>::splat(simd, 1.0);
         let unit = self.scale(one / length);
@@ -103,14 +95,14 @@ impl<S: Simd> Vec3<S> {
 
     /// `self`, with zero in the lanes of `mask`.
     #[inline(always)]
-    pub(super) fn zero_where(self, simd: S, mask: Mask<S>) -> Self {
+    pub fn zero_where(self, simd: S, mask: Mask<S>) -> Self {
         let zero = Lanes::<S>::splat(simd, 0.0);
         Self { x: mask.select(zero, self.x), y: mask.select(zero, self.y), z: mask.select(zero, self.z) }
     }
 
     /// `clip` of appendix A.1: into [0, 1] by comparisons, which makes 1 of NaN.
     #[inline(always)]
-    pub(super) fn clip(self, simd: S) -> Self {
+    pub fn clip(self, simd: S) -> Self {
         Self { x: clip(simd, self.x), y: clip(simd, self.y), z: clip(simd, self.z) }
     }
 }
@@ -125,7 +117,7 @@ fn clip<S: Simd>(simd: S, v: Lanes<S>) -> Lanes<S> {
 
 /// Whether the places follow one upon the other. They ascend, but the last may be repeated to fill a vector.
 #[inline(always)]
-pub(super) fn consecutive(places: &[u32]) -> bool {
+pub fn consecutive(places: &[u32]) -> bool {
     let last = places.len() - 1;
     let repeated = last > 0 && places[last] == places[last - 1];
     !repeated && (places[last] - places[0]) as usize == last
@@ -133,7 +125,7 @@ pub(super) fn consecutive(places: &[u32]) -> bool {
 
 /// One lane from each of the given places of a column; they ascend, or the last repeats.
 #[inline(always)]
-pub(super) fn gather<S: Simd>(simd: S, column: &[f64], places: &[u32]) -> Lanes<S> {
+pub fn gather<S: Simd>(simd: S, column: &[f64], places: &[u32]) -> Lanes<S> {
     let places = &places[..Lanes::<S>::LEN];
     if consecutive(places) {
         let first = places[0] as usize;

@@ -9,7 +9,7 @@
 use super::lanes::{Lanes, MAX_LANES, Mask, Vec3};
 use fearless_simd::f64x8;
 use fearless_simd::prelude::*;
-use hray_core::NoiseTables;
+use crate::NoiseTables;
 
 /// Below this magnitude the integer part of a coordinate can be read off the low bits of a double.
 const EXACT_CELLS: f64 = (1u64 << 50) as f64;
@@ -22,7 +22,7 @@ const TINY: f64 = 1e-280;
 const HUGE: f64 = 1e300;
 
 /// Noise tables, laid out for the kernel.
-pub(super) struct Noise {
+pub struct Noise {
     /// Of each permutation P, the pairs (P(i), P(i + 1)) for i to 511, all modulo 256.
     permutations: [[[u8; 2]; 512]; 3],
     /// Gradients one after the other, four numbers each, the last of them 0, and all of them twice: so those
@@ -34,7 +34,7 @@ const GRADIENTS: usize = 512 * 4;
 
 /// How the octaves of a sum are taken.
 #[derive(Clone, Copy, PartialEq)]
-pub(super) enum Sum {
+pub enum Sum {
     /// With their sign: `semiTurbulence`.
     Signed,
     /// By their absolute value: `turbulence`.
@@ -61,7 +61,7 @@ enum Cells {
 }
 
 impl Noise {
-    pub(super) fn new(tables: &NoiseTables) -> Self {
+    pub fn new(tables: &NoiseTables) -> Self {
         let mut gradients = Box::new([0.0; GRADIENTS]);
         for (i, row) in gradients.chunks_exact_mut(4).enumerate() {
             row[..3].copy_from_slice(&tables.gradients()[i & 255]);
@@ -237,7 +237,7 @@ impl Noise {
     /// The sum over octaves k = 0..=`octaves` of noise(2^k p / grid) / 2^k, from octave 0 upwards:
     /// `semiTurbulence` and `turbulence` of appendix A.3.
     #[inline(always)]
-    pub(super) fn octaves<S: Simd>(
+    pub fn octaves<S: Simd>(
         &self,
         simd: S,
         table: usize,

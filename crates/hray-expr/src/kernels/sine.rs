@@ -42,7 +42,7 @@ const C: [f64; 6] = [
 
 /// The sine of each lane, in radians.
 #[inline(always)]
-pub(super) fn sine<V: Simd>(simd: V, x: Lanes<V>) -> Lanes<V> {
+pub fn sine<V: Simd>(simd: V, x: Lanes<V>) -> Lanes<V> {
     let size = x.abs();
     let high = size.bitcast::<V::u64s>() >> 32;
     let mut ordinary: Mask<V> = size.simd_lt(LARGEST);
