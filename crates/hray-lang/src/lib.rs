@@ -27,5 +27,7 @@
 
 pub mod classic;
 pub mod decode;
+
 pub mod diagnostic;
+pub mod hry;
 pub mod lint;

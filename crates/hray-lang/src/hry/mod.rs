@@ -1,0 +1,3 @@
+//! The hry language: a scene as a pure function.
+
+pub mod ast;
