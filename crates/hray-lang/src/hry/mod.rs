@@ -1,3 +1,11 @@
 //! The hry language: a scene as a pure function.
 
+pub mod assets;
 pub mod ast;
+pub mod library;
+pub mod program;
+mod sources;
+pub mod syntax;
+
+pub use program::Program;
+pub use sources::{STANDARD_BASE, SourceFile, Sources};

@@ -1,8 +1,8 @@
 //! Rays against shapes, several rays at a time: `intRayWith`, `fstPos` and `normal` of appendix A.1 and A.2.
 
-use hray_expr::kernels::lanes::{Lanes, Mask, Vec3};
 use fearless_simd::prelude::*;
 use hray_core::{DVec3, Shape};
+use hray_expr::kernels::lanes::{Lanes, Mask, Vec3};
 
 /// A hit must be farther away than this (`fstPos`); it keeps a ray from hitting the spot it starts at.
 const NEAREST: f64 = 1e-6;

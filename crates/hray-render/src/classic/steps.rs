@@ -2,13 +2,13 @@
 
 use super::Integrator;
 use super::frame::{Background, Frame, Group, NOTHING};
-use hray_expr::kernels::lanes::{Lanes, Mask, Vec3, consecutive, gather};
-use hray_expr::kernels::power::power;
 use super::shapes::{Prepared, Rays};
 use super::texture::color_at;
 use crate::Control;
 use fearless_simd::prelude::*;
 use hray_core::{DVec3, Light, Material};
+use hray_expr::kernels::lanes::{Lanes, Mask, Vec3, consecutive, gather};
+use hray_expr::kernels::power::power;
 
 /// A highlight of coefficient 0 vanishes whatever its power, as long as that is finite; up to this exponent
 /// it is, because the cosine exceeds 1 by rounding only.

@@ -1,10 +1,10 @@
 //! The colour of a surface, several points at a time: `colorAt`, and the textures of appendix A.3.
 
+use fearless_simd::prelude::*;
+use hray_core::{DVec3, NoiseTexture, Rgb, Texture};
 use hray_expr::kernels::lanes::{Lanes, Vec3};
 use hray_expr::kernels::noise::{Noise, Sum};
 use hray_expr::kernels::sine::sine;
-use fearless_simd::prelude::*;
-use hray_core::{DVec3, NoiseTexture, Rgb, Texture};
 
 /// Diffuse colours at the points `p`.
 #[inline(always)]
