@@ -1,8 +1,8 @@
 //! Rays against shapes, several rays at a time: `intRayWith`, `fstPos` and `normal` of appendix A.1 and A.2.
 
-use hray_expr::kernels::lanes::{Lanes, Mask, Vec3};
 use fearless_simd::prelude::*;
 use hray_core::{DVec3, Shape};
+use hray_expr::kernels::lanes::{Lanes, Mask, Vec3};
 
 /// A hit must be farther away than this (`fstPos`); it keeps a ray from hitting the spot it starts at.
 const NEAREST: f64 = 1e-6;
@@ -46,6 +46,9 @@ impl Prepared {
                 let length = (n.x * n.x + n.y * n.y + n.z * n.z).sqrt();
                 let unit_normal = if length < PARALLEL { DVec3::ZERO } else { n * (1.0 / length) };
                 Self::Plane { normal: n, offset: plane.offset, unit_normal }
+            }
+            Shape::Cuboid(_) | Shape::Csg(_) => {
+                Self::Plane { normal: DVec3::ZERO, offset: 0.0, unit_normal: DVec3::ZERO }
             }
         }
     }

@@ -1,16 +1,17 @@
 //! The colour of a surface, several points at a time: `colorAt`, and the textures of appendix A.3.
 
+use fearless_simd::prelude::*;
+use hray_core::{DVec3, NoiseTexture, Rgb, Texture};
 use hray_expr::kernels::lanes::{Lanes, Vec3};
 use hray_expr::kernels::noise::{Noise, Sum};
 use hray_expr::kernels::sine::sine;
-use fearless_simd::prelude::*;
-use hray_core::{DVec3, NoiseTexture, Rgb, Texture};
 
 /// Diffuse colours at the points `p`.
 #[inline(always)]
 pub(super) fn color_at<S: Simd>(simd: S, noise: &Noise, texture: &Texture, p: Vec3<S>) -> Vec3<S> {
     match *texture {
         Texture::Solid(color) => Vec3::splat(simd, color),
+        Texture::Function(_) => Vec3::splat(simd, DVec3::ZERO),
         Texture::Noise(NoiseTexture::Plasma { grid }) => Vec3 {
             x: half::<S>(noise.octaves(simd, 0, p, grid, 0, Sum::Signed)),
             y: half::<S>(noise.octaves(simd, 1, p, grid, 0, Sum::Signed)),
