@@ -5,7 +5,7 @@ use super::failure::{Failure, Outcome};
 use super::machine::{Machine, depends_on_hit};
 use super::scalar::{assemble, parts};
 use super::value::{
-    FunctionKind, HitValue, Kind, RecordValue, Scalar, ShapeNode, ShapeValue, Symbol, Value,
+    HitValue, Kind, RecordValue, Scalar, ShapeNode, ShapeValue, Symbol, Value,
 };
 use crate::diagnostic::{Diagnostic, Span};
 use crate::hry::ast::BinaryOperator;
@@ -520,11 +520,4 @@ fn no_element(index: f64, count: usize, span: Span) -> Box<Failure> {
         _ => format!("there is no element {index} in a list of {count}; they are counted from 0 to {}", count - 1),
     };
     Failure::new(Diagnostic::error("no-element", message, span, "asked for here"))
-}
-
-impl FunctionKind {
-    /// Whether it is a moved function, whose moves can be joined.
-    pub(super) const fn is_placed(&self) -> bool {
-        matches!(self, Self::Placed { .. })
-    }
 }
