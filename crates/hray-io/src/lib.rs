@@ -22,6 +22,9 @@
 //! | farbfeld | `ff` | 16 bits | 8 |
 //! | OpenEXR | `exr` | f32, unclipped | 12 |
 //!
+//! A component is what the renderer left, or, where the scene asks for sRGB, what the transfer function of
+//! IEC 61966-2-1 makes of it ([`hray_core::Encoding`]); OpenEXR always holds linear light.
+//!
 //! Invariant: a file appears whole or not at all. It is written under a temporary name beside its place and
 //! renamed when the last byte is in; until then an older file of that name is untouched, and a
 //! [`PictureWriter`] that is dropped takes its temporary file with it. (A crash of the whole machine is not

@@ -57,8 +57,10 @@ pub use scene_file::{SceneFile, load};
 pub use summary::{Bounds, CameraSummary, Materials, Objects, Summary, WorstCase};
 
 pub use hray_core::{
-    DVec3, Description, DescriptionError, Light, MAX_DEPTH, MAX_PIXELS, MIN_DEPTH, Material, NoiseTables,
-    NoiseTexture, Plane, Primitive, Resolution, Rgb, Scene, Shape, Sphere, Texture, WindowCamera,
+    Background, Camera, Csg, CsgOperation, Cuboid, DAffine3, DMat3, DVec2, DVec3, Description,
+    DescriptionError, Encoding, Field, Function, Image, Integrator, Light, MAX_DEPTH, MAX_PIXELS, MIN_DEPTH,
+    Material, NoiseTables, NoiseTexture, OrthographicCamera, PerspectiveCamera, Plane, Primitive, Resolution,
+    Rgb, Scene, Shape, Sphere, Texture, WindowCamera,
 };
 pub use hray_io::{
     Destination, Input, InputError, MAX_SOURCE_BYTES, OutputError, PictureFormat, Quoted, TablesError,

@@ -2,6 +2,7 @@
 
 pub mod assets;
 pub mod ast;
+pub mod eval;
 pub mod library;
 pub mod program;
 mod sources;
