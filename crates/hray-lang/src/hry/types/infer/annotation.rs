@@ -5,6 +5,7 @@ use crate::diagnostic::{Diagnostic, Span};
 use crate::hry::ast::{Name, TypeExpr, TypeExprKind};
 use crate::hry::program::nearest;
 use crate::hry::types::kind::{Head, Kind};
+use crate::hry::types::scheme::Scheme;
 use crate::hry::types::store::{MOST_NESTED, Ty};
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -25,6 +26,18 @@ impl Variables {
 }
 
 impl Infer<'_> {
+    /// What a type is for every use, as it is written.
+    pub(in crate::hry::types) fn declared(&mut self, written: &TypeExpr) -> Scheme {
+        let ty = self.written(written, &mut Variables::rigid(), 0);
+        let (bound, _) = self.types.store.variables([ty]);
+        Scheme { ty, bound, constraints: Vec::new() }
+    }
+
+    /// What is known of something whose type cannot be read.
+    pub(in crate::hry::types) const fn declared_error(&self) -> Scheme {
+        Scheme { ty: Ty::ERROR, bound: Vec::new(), constraints: Vec::new() }
+    }
+
     /// The type that is written.
     pub(super) fn written(&mut self, written: &TypeExpr, variables: &mut Variables, depth: usize) -> Ty {
         if depth > MOST_NESTED {

@@ -13,7 +13,7 @@ use crate::hry::types::scheme::{Binding, Demand};
 use crate::hry::types::store::{Node, Ty};
 
 /// What a constructor makes, as a type.
-pub(super) const fn made(constructor: &Constructor) -> Ty {
+pub(in crate::hry::types) const fn made(constructor: &Constructor) -> Ty {
     match constructor.makes {
         Makes::Shape => Ty::alone(Head::Shape),
         Makes::Material => Ty::alone(Head::Material),

@@ -34,7 +34,7 @@ pub(super) enum Place {
 
 impl<'p> Infer<'p> {
     /// Finds the types of all definitions of some modules.
-    pub(super) fn modules(&mut self, range: std::ops::Range<usize>) {
+    pub(in crate::hry::types) fn modules(&mut self, range: std::ops::Range<usize>) {
         let modules = self.modules;
         let mut nodes = Vec::new();
         let mut first = Vec::new();

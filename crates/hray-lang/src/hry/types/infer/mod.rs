@@ -13,9 +13,15 @@ mod records;
 mod scene;
 mod solve;
 
+pub(super) use expr::made;
+pub(super) use group::counted;
+pub(super) use operators::written as written_operator;
+pub(super) use solve::{Allowed, Failure, field_of};
+
+pub(super) use super::scheme::Origin;
 use super::kind::Kind;
 use super::names::Names;
-use super::scheme::{Binding, Constraint, Demand, Origin, Scheme, Types};
+use super::scheme::{Binding, Constraint, Demand, Scheme, Types};
 use super::store::{Clash, Ty};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::hry::ast::{BinaryOperator, Expr, Name};
@@ -149,6 +155,23 @@ impl<'p> Infer<'p> {
             self.more_errors += 1;
         } else {
             self.diagnostics.push(diagnostic);
+        }
+    }
+
+    /// The last words.
+    pub(super) fn finish(&mut self) {
+        if self.exhausted {
+            let error = Diagnostic::error(
+                "type-too-large",
+                "the types of this program are too large to keep track of",
+                Span::default(),
+                "",
+            );
+            self.diagnostics.push(error.with_help("write types before the definitions that are used most"));
+        }
+        let more = std::mem::take(&mut self.more_errors);
+        if let (1.., Some(last)) = (more, self.diagnostics.last_mut()) {
+            last.notes.push(format!("there are {more} more errors"));
         }
     }
 

@@ -8,7 +8,6 @@ use crate::hry::library::{Constructor, constructor};
 use crate::hry::program::nearest;
 use crate::hry::types::scheme::Demand;
 use crate::hry::types::store::{Node, Ty};
-use std::sync::Arc;
 
 impl<'p> Infer<'p> {
     /// Whether a definition is what is rendered.
@@ -95,7 +94,7 @@ impl<'p> Infer<'p> {
     }
 
     /// The complaint about a file without a scene.
-    pub(in crate::hry::types) fn no_scene(&mut self, root: &Arc<crate::hry::program::LoadedModule>) {
+    pub(in crate::hry::types) fn no_scene(&mut self, root: &crate::hry::program::LoadedModule) {
         let definitions = &root.syntax.definitions;
         let names: Vec<_> = definitions.iter().filter_map(Definition::name).collect();
         let start = self.sources.files().first().map_or(0, |file| file.base);
