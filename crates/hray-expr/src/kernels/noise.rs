@@ -7,9 +7,9 @@
 //! at a time. The arithmetic is the same in all cases.
 
 use super::lanes::{Lanes, MAX_LANES, Mask, Vec3};
+use crate::NoiseTables;
 use fearless_simd::f64x8;
 use fearless_simd::prelude::*;
-use crate::NoiseTables;
 
 /// Below this magnitude the integer part of a coordinate can be read off the low bits of a double.
 const EXACT_CELLS: f64 = (1u64 << 50) as f64;
