@@ -88,3 +88,15 @@ fn native_types(errors: &mut Vec<Diagnostic>) -> Types {
     errors.append(&mut infer.diagnostics);
     Types { natives, ..infer.types }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn nothing_is_wrong_with_the_library() {
+        let (_, wrong) = standard_types();
+        let errors: Vec<_> = wrong.iter().filter(|diagnostic| diagnostic.is_error()).collect();
+        assert!(errors.is_empty(), "{errors:#?}");
+    }
+}

@@ -202,7 +202,6 @@ impl<'p> Infer<'p> {
                     if !self.types.store.is_error(expected) {
                         self.too_many_parameters(definition, pattern.span, ty, annotation);
                     }
-                    expected = Ty::ERROR;
                     (Ty::ERROR, Ty::ERROR)
                 }
             };

@@ -65,8 +65,6 @@ pub(super) enum Why<'p> {
     Arm { first: Span },
     /// What `++` joins to the left operand.
     Append { left: Span },
-    /// The operand of `++`.
-    Joined(Span),
     /// An annotation.
     Annotation(Span),
     /// A field of a constructor.

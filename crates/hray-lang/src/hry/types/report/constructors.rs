@@ -10,6 +10,7 @@ use crate::diagnostic::{Diagnostic, Span};
 use crate::hry::ast::Expr;
 use crate::hry::library::{CONSTRUCTORS, Constructor, FieldSpec, FieldType};
 use crate::hry::program::{listed, nearest};
+use crate::hry::sources::STANDARD_BASE;
 
 impl<'p> Infer<'p> {
     /// Reports a field that a constructor does not have.
@@ -25,7 +26,7 @@ impl<'p> Infer<'p> {
         let whose = if article.is_empty() { format!("`{owner}`") } else { article.to_owned() };
         let label = if via.is_some() { "by the record that is given here" } else { "no such field" };
         let mut error = Diagnostic::error("unknown-field", format!("{whose} has no field `{name}`"), span, label);
-        if let Some(via) = via {
+        if let Some(via) = via.filter(|via| via.start < STANDARD_BASE) {
             error = error.with_secondary(via, format!("the record goes to `{owner}` here"));
         }
         let names: Vec<&str> = constructor.fields.iter().map(|field| field.name).collect();
@@ -65,7 +66,7 @@ impl<'p> Infer<'p> {
             several => format!("`{owner}` needs the fields {}, which are not given", listed(several)),
         };
         let mut error = Diagnostic::error("missing-field", message, span, format!("without `{}`", first.name));
-        if let Some(via) = via {
+        if let Some(via) = via.filter(|via| via.start < STANDARD_BASE) {
             error = error.with_secondary(via, format!("the record goes to `{owner}` here"));
         }
         for field in &missing {
@@ -146,7 +147,7 @@ impl<'p> Infer<'p> {
         if let Some(name) = name {
             error = error.with_secondary(name, format!("takes a `{written}`"));
         }
-        if let Some(via) = via {
+        if let Some(via) = via.filter(|via| via.start < STANDARD_BASE) {
             error = error.with_secondary(via, format!("it goes to `{}` here", constructor.name));
         }
         self.slot_hint(error, expr, span, ty, field)

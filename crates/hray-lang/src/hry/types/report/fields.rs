@@ -35,7 +35,7 @@ impl<'p> Infer<'p> {
             }
             None => {}
         }
-        if let Some(via) = origin.via {
+        if let Some(via) = origin.inside() {
             error = error.with_secondary(via, "the field is needed here");
         }
         self.field_hint(error, ty, name, access, origin)

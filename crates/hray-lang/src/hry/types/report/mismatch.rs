@@ -52,7 +52,7 @@ impl<'p> Infer<'p> {
     /// Clashes that are not about two types that differ.
     fn special_clash(&self, span: Span, found: Ty, clash: Clash) -> Option<Diagnostic> {
         match clash {
-            Clash::Infinite(..) => {
+            Clash::Infinite => {
                 let message = "the type of this would contain itself without end";
                 let error = Diagnostic::error("infinite-type", message, span, format!("found `{}`", self.show(found)));
                 Some(error.with_help(
@@ -131,7 +131,6 @@ impl<'p> Infer<'p> {
                 .beside(first, format!("the first case: `{}`", self.show(expected))),
             Why::Append { left } => told("wrong-operand", format!("`++` joins two of the same type: this is {is}, but the left side is {takes}"))
                 .beside(left, format!("the left side: `{}`", self.show(expected))),
-            Why::Joined(word) => told("wrong-operand", format!("`++` joins lists, or texts, but this is {is}")).beside(word, ""),
             Why::Annotation(span) => told("wrong-annotation", format!("the annotation says {takes}, but this is {is}"))
                 .beside(span, "the annotation"),
             Why::Field { constructor, field, name } => {
