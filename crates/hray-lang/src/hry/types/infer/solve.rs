@@ -215,7 +215,7 @@ impl Infer<'_> {
                     self.pending.push(id);
                     self.attempt(id);
                 }
-                None => self.unknown_constructor_field(constructor, name, origin.span, origin.via),
+                None => self.unknown_constructor_field(constructor, name, origin.span, origin.via, false),
             }
         }
         let given: Vec<&str> = fields.iter().map(|field| &*field.0).collect();
