@@ -8,6 +8,7 @@ pub mod library;
 pub mod program;
 mod sources;
 pub mod syntax;
+pub mod types;
 
 pub use convert::convert;
 pub use program::Program;
