@@ -1,6 +1,7 @@
 //! What can go wrong with a file, in words for whoever typed its name.
 
-use crate::{PictureFormat, Quoted};
+use crate::animation::describe_rate;
+use crate::{AnimationFormat, PictureFormat, Quoted};
 use std::fmt;
 use std::io;
 use std::path::PathBuf;
@@ -18,6 +19,18 @@ pub enum InputError {
     Directory {
         /// The path as it was given.
         path: PathBuf,
+    },
+    /// A folder is wanted, and the path leads to something else.
+    NoDirectory {
+        /// The path as it was given.
+        path: PathBuf,
+    },
+    /// It is no image that can be read.
+    Image {
+        /// The path as it was given.
+        path: PathBuf,
+        /// What is wrong with it.
+        reason: String,
     },
     /// There is more to read than is accepted.
     TooLarge {
@@ -65,6 +78,12 @@ impl fmt::Display for InputError {
                     "cannot read {}: it is a directory; give the name of a file in it",
                     Named(path, "the standard input")
                 )
+            }
+            Self::NoDirectory { path } => {
+                write!(f, "{} is no directory; give the name of one", Named(path, "the standard input"))
+            }
+            Self::Image { path, reason } => {
+                write!(f, "cannot read {}: {reason}", Named(path, "the standard input"))
             }
             Self::TooLarge { path, limit } => write!(
                 f,
@@ -126,6 +145,26 @@ pub enum OutputError {
         /// Pixels down.
         height: u32,
     },
+    /// The format cannot hold frames of that size.
+    FrameSize {
+        /// The format.
+        format: AnimationFormat,
+        /// Pixels across.
+        width: u32,
+        /// Pixels down.
+        height: u32,
+        /// The most pixels in either direction.
+        longest: u32,
+    },
+    /// The format cannot show so many frames a second.
+    FrameRate {
+        /// The format.
+        format: AnimationFormat,
+        /// Frames a second.
+        fps: f64,
+        /// The most it can show.
+        fastest: f64,
+    },
     /// There is not enough memory for a format that needs the whole picture at once.
     Memory {
         /// The format.
@@ -170,6 +209,11 @@ impl fmt::Display for OutputError {
                 "a picture of {width} by {height} pixels is too large for the format {format}; \
                  png and ppm hold larger ones"
             ),
+            Self::FrameSize { format, width, height, longest } => write!(
+                f,
+                "frames of {width} by {height} pixels do not fit the format {format}; a side has 1 to {longest}"
+            ),
+            Self::FrameRate { format, fps, fastest } => describe_rate(f, *format, *fps, *fastest),
             Self::Memory { format, bytes } => write!(
                 f,
                 "the format {format} needs {} of memory for this picture, and there is less; \
