@@ -26,6 +26,18 @@ pub enum InputError {
         /// The most bytes that are accepted.
         limit: u64,
     },
+    /// There is no such folder to read from.
+    NoFolder {
+        /// The path as it was given.
+        path: PathBuf,
+    },
+    /// A scene does not lie in the folder that it may read from.
+    OutsideRoot {
+        /// The scene's path as it was given.
+        path: PathBuf,
+        /// The folder.
+        root: PathBuf,
+    },
     /// The system refused.
     Io {
         /// The path as it was given; `-` is the standard input.
@@ -72,6 +84,15 @@ impl fmt::Display for InputError {
                 Named(path, "the standard input"),
                 Bytes(*limit)
             ),
+            Self::NoFolder { path } => {
+                write!(f, "there is no folder {} to read from; check the spelling", Quoted(path))
+            }
+            Self::OutsideRoot { path, root } => write!(
+                f,
+                "the scene {} does not lie in the root folder {}; a root is the scene's folder or one further up",
+                Quoted(path),
+                Quoted(root)
+            ),
             Self::Io { path, source } => {
                 write!(
                     f,
@@ -89,6 +110,43 @@ impl std::error::Error for InputError {
     fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
         match self {
             Self::Io { source, .. } => Some(source),
+            _ => None,
+        }
+    }
+}
+
+/// Why a file in a folder is not to be had. As text it is the reason alone, to follow "cannot be read: ".
+#[derive(Debug)]
+#[non_exhaustive]
+pub enum FolderError {
+    /// There is no such file.
+    Missing,
+    /// It lies outside the folder, for example behind a link.
+    Outside,
+    /// It is a folder itself, a device or a pipe.
+    NoFile,
+    /// There is more to read than is accepted: so many bytes.
+    TooLarge(u64),
+    /// The system refused.
+    Io(io::Error),
+}
+
+impl fmt::Display for FolderError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Missing => f.write_str("there is no such file"),
+            Self::Outside => f.write_str("it lies outside the folder"),
+            Self::NoFile => f.write_str("it is no ordinary file"),
+            Self::TooLarge(limit) => write!(f, "it is longer than {}, the most that is read", Bytes(*limit)),
+            Self::Io(source) => write!(f, "{}{}", Cause(source), advice(source)),
+        }
+    }
+}
+
+impl std::error::Error for FolderError {
+    fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
+        match self {
+            Self::Io(source) => Some(source),
             _ => None,
         }
     }

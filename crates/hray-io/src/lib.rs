@@ -32,6 +32,7 @@
 
 mod destination;
 mod error;
+mod folder;
 mod format;
 mod noise_tables;
 mod output;
@@ -41,7 +42,8 @@ mod same_file;
 mod source;
 
 pub use destination::Destination;
-pub use error::{InputError, OutputError};
+pub use error::{FolderError, InputError, OutputError};
+pub use folder::Folder;
 pub use format::{PictureFormat, UnknownFormat};
 pub use noise_tables::{MAX_NOISE_TABLES_BYTES, TablesError, parse_noise_tables, read_noise_tables};
 pub use picture_writer::PictureWriter;
