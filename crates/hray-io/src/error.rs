@@ -1,6 +1,7 @@
 //! What can go wrong with a file, in words for whoever typed its name.
 
-use crate::{PictureFormat, Quoted};
+use crate::animation::describe_rate;
+use crate::{AnimationFormat, PictureFormat, Quoted};
 use std::fmt;
 use std::io;
 use std::path::PathBuf;
@@ -19,15 +20,8 @@ pub enum InputError {
         /// The path as it was given.
         path: PathBuf,
     },
-    /// There is more to read than is accepted.
-    TooLarge {
-        /// The path as it was given; `-` is the standard input.
-        path: PathBuf,
-        /// The most bytes that are accepted.
-        limit: u64,
-    },
-    /// There is no such folder to read from.
-    NoFolder {
+    /// A folder is wanted, and the path leads to something else.
+    NoDirectory {
         /// The path as it was given.
         path: PathBuf,
     },
@@ -37,6 +31,20 @@ pub enum InputError {
         path: PathBuf,
         /// The folder.
         root: PathBuf,
+    },
+    /// It is no image that can be read.
+    Image {
+        /// The path as it was given.
+        path: PathBuf,
+        /// What is wrong with it.
+        reason: String,
+    },
+    /// There is more to read than is accepted.
+    TooLarge {
+        /// The path as it was given; `-` is the standard input.
+        path: PathBuf,
+        /// The most bytes that are accepted.
+        limit: u64,
     },
     /// The system refused.
     Io {
@@ -54,6 +62,20 @@ impl InputError {
             io::ErrorKind::NotFound => Self::Missing { path },
             io::ErrorKind::IsADirectory => Self::Directory { path },
             _ => Self::Io { path, source },
+        }
+    }
+
+    /// What is wrong, without the path, in words that follow "cannot be read: ".
+    #[must_use]
+    pub fn reason(&self) -> String {
+        match self {
+            Self::Missing { .. } => "there is no such file".to_owned(),
+            Self::Directory { .. } => "it is a directory".to_owned(),
+            Self::NoDirectory { .. } => "it is no directory".to_owned(),
+            Self::OutsideRoot { .. } => "it does not lie in the root folder".to_owned(),
+            Self::Image { reason, .. } => reason.clone(),
+            Self::TooLarge { limit, .. } => format!("it is longer than {}, the most that is read", Bytes(*limit)),
+            Self::Io { source, .. } => format!("{}{}", Cause(source), advice(source)),
         }
     }
 }
@@ -78,20 +100,23 @@ impl fmt::Display for InputError {
                     Named(path, "the standard input")
                 )
             }
+            Self::NoDirectory { path } => {
+                write!(f, "{} is no directory; give the name of one", Named(path, "the standard input"))
+            }
+            Self::OutsideRoot { path, root } => write!(
+                f,
+                "the scene {} does not lie in the root folder {}; the root is the scene's own folder or one further up",
+                Quoted(path),
+                Quoted(root)
+            ),
+            Self::Image { path, reason } => {
+                write!(f, "cannot read {}: {reason}", Named(path, "the standard input"))
+            }
             Self::TooLarge { path, limit } => write!(
                 f,
                 "cannot read {}: it is longer than {}, the most that is read; is it the right file?",
                 Named(path, "the standard input"),
                 Bytes(*limit)
-            ),
-            Self::NoFolder { path } => {
-                write!(f, "there is no folder {} to read from; check the spelling", Quoted(path))
-            }
-            Self::OutsideRoot { path, root } => write!(
-                f,
-                "the scene {} does not lie in the root folder {}; a root is the scene's folder or one further up",
-                Quoted(path),
-                Quoted(root)
             ),
             Self::Io { path, source } => {
                 write!(
@@ -110,43 +135,6 @@ impl std::error::Error for InputError {
     fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
         match self {
             Self::Io { source, .. } => Some(source),
-            _ => None,
-        }
-    }
-}
-
-/// Why a file in a folder is not to be had. As text it is the reason alone, to follow "cannot be read: ".
-#[derive(Debug)]
-#[non_exhaustive]
-pub enum FolderError {
-    /// There is no such file.
-    Missing,
-    /// It lies outside the folder, for example behind a link.
-    Outside,
-    /// It is a folder itself, a device or a pipe.
-    NoFile,
-    /// There is more to read than is accepted: so many bytes.
-    TooLarge(u64),
-    /// The system refused.
-    Io(io::Error),
-}
-
-impl fmt::Display for FolderError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Missing => f.write_str("there is no such file"),
-            Self::Outside => f.write_str("it lies outside the folder"),
-            Self::NoFile => f.write_str("it is no ordinary file"),
-            Self::TooLarge(limit) => write!(f, "it is longer than {}, the most that is read", Bytes(*limit)),
-            Self::Io(source) => write!(f, "{}{}", Cause(source), advice(source)),
-        }
-    }
-}
-
-impl std::error::Error for FolderError {
-    fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
-        match self {
-            Self::Io(source) => Some(source),
             _ => None,
         }
     }
@@ -183,6 +171,26 @@ pub enum OutputError {
         width: u32,
         /// Pixels down.
         height: u32,
+    },
+    /// The format cannot hold frames of that size.
+    FrameSize {
+        /// The format.
+        format: AnimationFormat,
+        /// Pixels across.
+        width: u32,
+        /// Pixels down.
+        height: u32,
+        /// The most pixels in either direction.
+        longest: u32,
+    },
+    /// The format cannot show so many frames a second.
+    FrameRate {
+        /// The format.
+        format: AnimationFormat,
+        /// Frames a second.
+        fps: f64,
+        /// The most it can show.
+        fastest: f64,
     },
     /// There is not enough memory for a format that needs the whole picture at once.
     Memory {
@@ -228,6 +236,11 @@ impl fmt::Display for OutputError {
                 "a picture of {width} by {height} pixels is too large for the format {format}; \
                  png and ppm hold larger ones"
             ),
+            Self::FrameSize { format, width, height, longest } => write!(
+                f,
+                "frames of {width} by {height} pixels do not fit the format {format}; a side has 1 to {longest}"
+            ),
+            Self::FrameRate { format, fps, fastest } => describe_rate(f, *format, *fps, *fastest),
             Self::Memory { format, bytes } => write!(
                 f,
                 "the format {format} needs {} of memory for this picture, and there is less; \

@@ -1,182 +1,205 @@
-//! A folder that files are read from, and nothing outside of it.
+//! Files inside one folder, and nothing outside of it.
 
 use crate::source::read_bounded;
-use crate::{FolderError, InputError};
+use crate::{InputError, MAX_IMAGE_BYTES, MAX_SOURCE_BYTES, decode_image};
+use hray_core::Image;
 use std::fs::{self, File};
 use std::io;
 use std::path::{Component, Path, PathBuf};
 
-/// So many names of a folder are looked at.
-const MOST_NAMES: usize = 10_000;
+/// The most names of a folder that are looked at for "did you mean".
+const MOST_NAMES: usize = 1000;
 
-/// A folder with everything below it. Files in it are named by paths relative to it, with slashes.
-///
-/// What is read lies in the folder once all links are followed; a link that leads out of it is refused.
+/// A folder whose files may be read, and no others: not by `..`, not by absolute paths, not through links that lead out.
 #[derive(Clone, Debug)]
 pub struct Folder {
-    /// Absolute, without links.
+    /// Without links, so that it is a prefix of what lies in it.
     root: PathBuf,
 }
 
+/// Why a file of a folder is not to be had.
+#[derive(Debug)]
+#[non_exhaustive]
+pub enum FolderError {
+    /// There is no such file.
+    Missing,
+    /// It lies outside the folder.
+    Outside,
+    /// It cannot be read.
+    Input(InputError),
+}
+
 impl Folder {
-    /// The folder at a path; the current one where that is empty.
+    /// The folder at a path.
     ///
     /// # Errors
-    /// [`InputError`] where there is none.
-    pub fn new(path: &Path) -> Result<Self, InputError> {
-        let root = match or_here(path).canonicalize() {
-            Ok(root) => root,
-            Err(error) if error.kind() == io::ErrorKind::NotFound => {
-                return Err(InputError::NoFolder { path: path.to_owned() });
-            }
-            Err(source) => return Err(InputError::Io { path: path.to_owned(), source }),
-        };
-        if root.is_dir() { Ok(Self { root }) } else { Err(InputError::NoFolder { path: path.to_owned() }) }
-    }
-
-    /// The folder that a file lies in. A link counts as lying where the link lies.
-    ///
-    /// # Errors
-    /// As [`Folder::new`].
-    pub fn around(file: &Path) -> Result<Self, InputError> {
-        Self::new(file.parent().unwrap_or(Path::new("")))
-    }
-
-    /// The path of a file relative to this folder; none where it does not lie in it.
-    #[must_use]
-    pub fn relative(&self, file: &Path) -> Option<String> {
-        let around = or_here(file.parent()?).canonicalize().ok()?;
-        let inside = around.strip_prefix(&self.root).ok()?.join(file.file_name()?);
-        let parts: Vec<_> = inside.components().map(|part| part.as_os_str().to_string_lossy()).collect();
-        Some(parts.join("/"))
-    }
-
-    /// Reads all of a file, `limit` bytes at most.
-    ///
-    /// # Errors
-    /// [`FolderError`] where there is no such file inside the folder, it is longer, or the system refuses.
-    pub fn read(&self, path: &str, limit: u64) -> Result<Vec<u8>, FolderError> {
-        let path = self.find(path)?;
-        // Asked before opening, which waits for a writer where the file is a named pipe.
-        let metadata = fs::metadata(&path).map_err(from_io)?;
-        if !metadata.is_file() {
-            return Err(FolderError::NoFile);
+    /// [`InputError`] where there is none, or it may not be entered.
+    pub fn open(path: &Path) -> Result<Self, InputError> {
+        let path = if path.as_os_str().is_empty() { Path::new(".") } else { path };
+        let failed = |source| InputError::from_io(path.to_owned(), source);
+        let root = path.canonicalize().map_err(failed)?;
+        if !fs::metadata(&root).map_err(failed)?.is_dir() {
+            return Err(InputError::NoDirectory { path: path.to_owned() });
         }
-        if metadata.len() > limit {
-            return Err(FolderError::TooLarge(limit));
-        }
-        let file = File::open(&path).map_err(from_io)?;
-        read_bounded(file, &path, limit).map_err(|error| match error {
-            InputError::TooLarge { limit, .. } => FolderError::TooLarge(limit),
-            InputError::Io { source, .. } => FolderError::Io(source),
-            _ => FolderError::Missing,
-        })
+        Ok(Self { root })
     }
 
-    /// The paths of what lies beside a file (that need not exist), in alphabetical order; of a very large folder only
-    /// some.
+    /// The path from this folder to a file, with slashes; none where the file does not lie in it, or has a name that
+    /// is not UTF-8.
     #[must_use]
-    pub fn beside(&self, path: &str) -> Vec<String> {
-        let (folder, prefix) = match path.rsplit_once('/') {
-            Some((folder, _)) => (folder, format!("{folder}/")),
-            None => ("", String::new()),
-        };
-        let Ok(entries) = self.find(folder).and_then(|folder| fs::read_dir(folder).map_err(from_io)) else {
-            return Vec::new();
-        };
-        let names = entries.take(MOST_NAMES).filter_map(|entry| entry.ok()?.file_name().into_string().ok());
-        let mut paths: Vec<String> = names.map(|name| format!("{prefix}{name}")).collect();
-        paths.sort_unstable();
+    pub fn path_to(&self, file: &Path) -> Option<String> {
+        // The file may be a link or not exist: what counts is the folder it is in.
+        let (name, parent) = (file.file_name()?, file.parent()?);
+        let parent = if parent.as_os_str().is_empty() { Path::new(".") } else { parent };
+        let inside = parent.canonicalize().ok()?.strip_prefix(&self.root).ok()?.join(name);
+        let parts: Option<Vec<&str>> = inside.components().map(|part| part.as_os_str().to_str()).collect();
+        Some(parts?.join("/"))
+    }
+
+    /// The bytes of a text, [`MAX_SOURCE_BYTES`] at most.
+    ///
+    /// # Errors
+    /// [`FolderError`]
+    pub fn read(&self, path: &str) -> Result<Vec<u8>, FolderError> {
+        self.bytes(path, MAX_SOURCE_BYTES)
+    }
+
+    /// An image, see [`decode_image`].
+    ///
+    /// # Errors
+    /// [`FolderError`]
+    pub fn image(&self, path: &str) -> Result<Image, FolderError> {
+        decode_image(&self.bytes(path, MAX_IMAGE_BYTES)?, Path::new(path)).map_err(FolderError::Input)
+    }
+
+    /// The paths of the files in the same folder as `path`, sorted; of a very large folder not all.
+    #[must_use]
+    pub fn neighbours(&self, path: &str) -> Vec<String> {
+        let (before, _) = path.rsplit_once('/').unwrap_or(("", path));
+        let Ok(folder) = self.find(before) else { return Vec::new() };
+        let Ok(entries) = fs::read_dir(folder) else { return Vec::new() };
+        let entries = entries.flatten().take(MOST_NAMES);
+        let files = entries.filter(|entry| entry.file_type().is_ok_and(|kind| !kind.is_dir()));
+        let names = files.filter_map(|entry| entry.file_name().into_string().ok());
+        let mut paths: Vec<String> =
+            names.map(|name| if before.is_empty() { name } else { format!("{before}/{name}") }).collect();
+        paths.sort();
         paths
     }
 
-    /// Where a path leads, links followed, if that is inside.
+    /// The true path of what `path` leads to, which lies in the folder.
     fn find(&self, path: &str) -> Result<PathBuf, FolderError> {
-        let path = Path::new(path);
-        if !path.components().all(|part| matches!(part, Component::Normal(_))) {
+        let relative = Path::new(path);
+        if relative.components().any(|part| !matches!(part, Component::Normal(_) | Component::CurDir)) {
             return Err(FolderError::Outside);
         }
-        let found = self.root.join(path).canonicalize().map_err(from_io)?;
+        let found = self.root.join(relative).canonicalize().map_err(|error| Self::failed(path, error))?;
         if found.starts_with(&self.root) { Ok(found) } else { Err(FolderError::Outside) }
     }
-}
 
-fn from_io(error: io::Error) -> FolderError {
-    match error.kind() {
-        io::ErrorKind::NotFound => FolderError::Missing,
-        _ => FolderError::Io(error),
+    fn bytes(&self, path: &str, limit: u64) -> Result<Vec<u8>, FolderError> {
+        let found = self.find(path)?;
+        let metadata = fs::metadata(&found).map_err(|error| Self::failed(path, error))?;
+        let given = PathBuf::from(path);
+        if metadata.is_dir() {
+            return Err(FolderError::Input(InputError::Directory { path: given }));
+        }
+        // A pipe or a device may never end, or wait for ever.
+        if !metadata.is_file() {
+            let source = io::Error::new(io::ErrorKind::InvalidInput, "it is no regular file");
+            return Err(FolderError::Input(InputError::Io { path: given, source }));
+        }
+        if metadata.len() > limit {
+            return Err(FolderError::Input(InputError::TooLarge { path: given, limit }));
+        }
+        let file = File::open(&found).map_err(|error| Self::failed(path, error))?;
+        read_bounded(file, Path::new(path), limit).map_err(FolderError::Input)
     }
-}
 
-fn or_here(path: &Path) -> &Path {
-    if path.as_os_str().is_empty() { Path::new(".") } else { path }
+    fn failed(path: &str, error: io::Error) -> FolderError {
+        match error.kind() {
+            io::ErrorKind::NotFound | io::ErrorKind::NotADirectory => FolderError::Missing,
+            _ => FolderError::Input(InputError::from_io(PathBuf::from(path), error)),
+        }
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    fn text(folder: &Folder, path: &str) -> Result<String, String> {
-        let bytes = folder.read(path, 100).map_err(|error| error.to_string())?;
-        String::from_utf8(bytes).map_err(|error| error.to_string())
+    fn folders() -> (tempfile::TempDir, Folder) {
+        let outer = tempfile::tempdir().unwrap();
+        let inner = outer.path().join("inner");
+        fs::create_dir_all(inner.join("sub")).unwrap();
+        fs::write(outer.path().join("secret.hry"), "secret").unwrap();
+        fs::write(inner.join("a.hry"), "a").unwrap();
+        fs::write(inner.join("sub/b.hry"), "b").unwrap();
+        let folder = Folder::open(&inner).unwrap();
+        (outer, folder)
     }
 
     #[test]
-    fn files_inside_are_read_and_nothing_else() {
-        let directory = tempfile::tempdir().unwrap();
-        let inside = directory.path().join("in");
-        fs::create_dir_all(inside.join("sub")).unwrap();
-        fs::write(directory.path().join("secret"), "secret").unwrap();
-        fs::write(inside.join("a"), "a").unwrap();
-        fs::write(inside.join("sub/b"), "b").unwrap();
-        fs::write(inside.join("long"), [b'x'; 101]).unwrap();
-        let folder = Folder::new(&inside).unwrap();
-        assert_eq!((text(&folder, "a"), text(&folder, "sub/b")), (Ok("a".into()), Ok("b".into())));
-        for outside in ["../secret", "sub/../../secret", "/etc/hostname", "./../secret"] {
-            assert!(matches!(folder.read(outside, 100), Err(FolderError::Outside)), "{outside}");
+    fn files_inside_are_read_and_nothing_else_is() {
+        let (_outer, folder) = folders();
+        assert_eq!(folder.read("a.hry").unwrap(), b"a");
+        assert_eq!(folder.read("sub/b.hry").unwrap(), b"b");
+        for path in ["../secret.hry", "sub/../../secret.hry", "/etc/hostname", "sub/../a.hry"] {
+            assert!(matches!(folder.read(path), Err(FolderError::Outside)), "{path}");
         }
-        assert!(matches!(folder.read("none", 100), Err(FolderError::Missing)));
-        assert!(matches!(folder.read("sub", 100), Err(FolderError::NoFile)));
-        assert!(matches!(folder.read("long", 100), Err(FolderError::TooLarge(100))));
-        assert_eq!(folder.beside("x"), ["a", "long", "sub"]);
-        assert_eq!(folder.beside("sub/x"), ["sub/b"]);
-        assert_eq!((folder.beside("none/x"), folder.beside("../x")), (vec![], vec![]));
-    }
-
-    #[test]
-    fn a_scene_has_a_path_in_its_folder_and_in_those_above() {
-        let directory = tempfile::tempdir().unwrap();
-        fs::create_dir_all(directory.path().join("in/sub")).unwrap();
-        let scene = directory.path().join("in/sub/scene.hry");
-        let relative = |root: &str| Folder::new(&directory.path().join(root)).unwrap().relative(&scene);
-        assert_eq!(Folder::around(&scene).unwrap().relative(&scene).as_deref(), Some("scene.hry"));
-        assert_eq!(relative("in").as_deref(), Some("sub/scene.hry"));
-        fs::create_dir(directory.path().join("other")).unwrap();
-        assert_eq!(relative("other"), None);
-        assert!(Folder::new(&scene).is_err());
-        assert!(Folder::new(Path::new("")).is_ok());
+        for path in ["none.hry", "a.hry/b", "none/none.hry"] {
+            assert!(matches!(folder.read(path), Err(FolderError::Missing)), "{path}");
+        }
+        assert!(matches!(folder.read("sub"), Err(FolderError::Input(InputError::Directory { .. }))));
+        assert!(matches!(folder.image("a.hry"), Err(FolderError::Input(InputError::Image { .. }))));
+        assert_eq!(folder.neighbours("x.hry"), ["a.hry"]);
+        assert_eq!(folder.neighbours("sub/x.hry"), ["sub/b.hry"]);
+        assert!(folder.neighbours("../x").is_empty() && folder.neighbours("none/x").is_empty());
     }
 
     #[cfg(unix)]
     #[test]
-    fn links_are_followed_only_inside() {
+    fn links_may_lead_about_inside_but_not_out() {
         use std::os::unix::fs::symlink;
-        let directory = tempfile::tempdir().unwrap();
-        let inside = directory.path().join("in");
-        fs::create_dir_all(inside.join("sub")).unwrap();
-        fs::write(directory.path().join("secret"), "secret").unwrap();
-        fs::write(inside.join("a"), "a").unwrap();
-        symlink("../a", inside.join("sub/good")).unwrap();
-        symlink("../secret", inside.join("bad")).unwrap();
-        symlink("..", inside.join("up")).unwrap();
-        symlink("circle", inside.join("circle")).unwrap();
-        symlink(&inside, directory.path().join("way")).unwrap();
-        let folder = Folder::new(&directory.path().join("way")).unwrap();
-        assert_eq!(text(&folder, "sub/good"), Ok("a".into()));
-        assert!(matches!(folder.read("bad", 100), Err(FolderError::Outside)));
-        assert!(matches!(folder.read("up/secret", 100), Err(FolderError::Outside)));
-        assert!(folder.read("circle", 100).is_err());
-        assert!(folder.beside("up/x").is_empty());
-        assert_eq!(folder.relative(&directory.path().join("way/sub/s.hry")).as_deref(), Some("sub/s.hry"));
+        let (outer, folder) = folders();
+        let inner = outer.path().join("inner");
+        symlink("a.hry", inner.join("good.hry")).unwrap();
+        symlink("../secret.hry", inner.join("bad.hry")).unwrap();
+        symlink("..", inner.join("up")).unwrap();
+        symlink("circle", inner.join("circle")).unwrap();
+        symlink("gone", inner.join("dangling")).unwrap();
+        assert_eq!(folder.read("good.hry").unwrap(), b"a");
+        for path in ["bad.hry", "up/secret.hry"] {
+            assert!(matches!(folder.read(path), Err(FolderError::Outside)), "{path}");
+        }
+        assert_eq!(folder.read("up/inner/a.hry").unwrap(), b"a");
+        assert!(folder.neighbours("up/x").is_empty());
+        assert!(matches!(folder.read("circle"), Err(FolderError::Input(_))));
+        assert!(matches!(folder.read("dangling"), Err(FolderError::Missing)));
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn what_never_ends_is_not_begun() {
+        let (outer, folder) = folders();
+        let pipe = outer.path().join("inner/pipe");
+        let made = std::process::Command::new("mkfifo").arg(&pipe).status();
+        if made.is_ok_and(|status| status.success()) {
+            assert!(matches!(folder.read("pipe"), Err(FolderError::Input(InputError::Io { .. }))));
+        }
+    }
+
+    #[test]
+    fn the_path_to_a_file_is_found() {
+        let (outer, folder) = folders();
+        let path = |name: &str| folder.path_to(&outer.path().join(name));
+        assert_eq!(path("inner/a.hry").as_deref(), Some("a.hry"));
+        assert_eq!(path("inner/sub/../sub/new.hry").as_deref(), Some("sub/new.hry"));
+        assert_eq!((path("secret.hry"), path("none/x.hry")), (None, None));
+        assert!(matches!(
+            Folder::open(&outer.path().join("secret.hry")),
+            Err(InputError::NoDirectory { .. })
+        ));
+        assert!(matches!(Folder::open(&outer.path().join("none")), Err(InputError::Missing { .. })));
     }
 }

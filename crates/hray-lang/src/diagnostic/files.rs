@@ -1,71 +1,67 @@
-//! The files that diagnostics speak of.
+//! The files that diagnostics are about.
 
 use super::locate::Locations;
 use super::render::clean;
 use super::{Diagnostic, Span};
 use crate::hry::Sources;
-use std::collections::BTreeMap;
 
-/// A file with the places that are needed in it.
+/// A file, and the places in it that are mentioned.
 pub(super) struct File<'a> {
-    /// Its name, fit for a terminal.
+    /// What it is called, fit for a terminal.
     pub(super) name: String,
     pub(super) text: &'a str,
-    /// The offset that spans give its first byte.
-    base: usize,
+    /// What is added to its offsets in a span.
+    pub(super) base: usize,
     pub(super) locations: Locations,
 }
 
-impl File<'_> {
-    /// A span as bytes of this file; moved to where it fits, and cut where its first line ends.
-    pub(super) fn fit(&self, span: Span) -> Span {
-        let local = Span::new(span.start.saturating_sub(self.base), span.end.saturating_sub(self.base));
-        fit(self.text, local)
-    }
-}
-
-/// The files that some diagnostics speak of, in the order of their offsets.
+/// The files that are mentioned, in the order of their bases.
 pub(super) struct Files<'a>(Vec<File<'a>>);
 
 impl<'a> Files<'a> {
-    /// One file, of which the offsets are its own.
-    pub(super) fn single(name: &str, text: &'a str, diagnostics: &[Diagnostic]) -> Self {
-        let spans = diagnostics.iter().flat_map(Diagnostic::spans);
-        Self(vec![file(name, text, 0, spans.collect())])
+    /// A single file, in which every span is.
+    pub(super) fn one(name: &str, text: &'a str, diagnostics: &[Diagnostic]) -> Self {
+        Self(vec![File::new(name, text, 0, diagnostics.iter().flat_map(Diagnostic::spans))])
     }
 
-    /// Those of a program.
+    /// The files of a program that diagnostics mention.
     pub(super) fn of(sources: &'a Sources, diagnostics: &[Diagnostic]) -> Self {
-        let mut found = BTreeMap::new();
-        for span in diagnostics.iter().flat_map(Diagnostic::spans) {
-            if let Some(file) = sources.file(span.start) {
-                found.entry(file.base).or_insert((file, Vec::new())).1.push(span);
-            }
-        }
-        let files = found.into_values().map(|(of, spans)| file(&of.name, &of.text, of.base, spans));
+        let mut spans: Vec<Span> = diagnostics.iter().flat_map(Diagnostic::spans).collect();
+        spans.sort_unstable();
+        let base = |span: &Span| sources.file(span.start).map(|file| file.base);
+        let files = spans.chunk_by(|a, b| base(a) == base(b)).filter_map(|spans| {
+            let file = sources.file(spans.first()?.start)?;
+            Some(File::new(&file.name, &file.text, file.base, spans.iter().copied()))
+        });
         Self(files.collect())
     }
 
-    /// The file that a span lies in, by its place among all.
-    pub(super) fn position(&self, span: Span) -> usize {
-        self.0.partition_point(|file| file.base <= span.start).saturating_sub(1)
+    pub(super) fn get(&self, number: usize) -> Option<&File<'a>> {
+        self.0.get(number)
     }
 
-    /// The file at a place among all.
-    pub(super) fn get(&self, position: usize) -> Option<&File<'a>> {
-        self.0.get(position)
+    /// The number of the file that a span is in, and the part of the span that lies in it, on character boundaries and
+    /// on its first line.
+    pub(super) fn local(&self, span: Span) -> (usize, Span) {
+        let number = self.0.partition_point(|file| file.base <= span.start).saturating_sub(1);
+        (number, self.0.get(number).map_or(span, |file| file.fit(span)))
     }
 }
 
-fn file<'a>(name: &str, text: &'a str, base: usize, spans: Vec<Span>) -> File<'a> {
-    let mut file = File { name: clean(name), text, base, locations: Locations::new(text, Vec::new()) };
-    let offsets = spans.into_iter().flat_map(|span| {
-        let Span { start, end } = file.fit(span);
-        [start, end]
-    });
-    let offsets = offsets.collect();
-    file.locations = Locations::new(text, offsets);
-    file
+impl<'a> File<'a> {
+    fn new(name: &str, text: &'a str, base: usize, spans: impl Iterator<Item = Span>) -> Self {
+        let mut file = Self { name: clean(name), text, base, locations: Locations::new("", Vec::new()) };
+        let ends = spans.flat_map(|span| {
+            let span = file.fit(span);
+            [span.start, span.end]
+        });
+        file.locations = Locations::new(text, ends.collect());
+        file
+    }
+
+    fn fit(&self, span: Span) -> Span {
+        fit(self.text, Span::new(span.start.saturating_sub(self.base), span.end.saturating_sub(self.base)))
+    }
 }
 
 /// The part of a span that lies in the source, on character boundaries and on its first line.

@@ -1,17 +1,17 @@
 //! What the language has to say about a source text, as plain data, and the rendering of it as text.
 //!
-//! A [`Diagnostic`] knows nothing of terminals: an editor can show it in its own way ([`Places`] says where). [`render`]
-//! lays it out with the source line, the span underlined, and the suggestion spelt out; [`render_sources`] does the same
-//! for a program of several files.
+//! A [`Diagnostic`] knows nothing of terminals: an editor can show it in its own way. [`render`] lays it out
+//! with the source line, the span underlined, and the suggestion spelt out, [`render_sources`] over several files;
+//! [`Places`] gives lines and columns to programs.
 
 mod excerpt;
 mod files;
 mod locate;
-mod place;
+mod places;
 mod render;
 mod span;
 
-pub use place::{Place, Places};
+pub use places::{Place, Places, Point};
 pub use render::{render, render_sources};
 pub use span::Span;
 

@@ -2,10 +2,9 @@
 
 use super::excerpt::{Excerpt, excerpts};
 use super::files::{File, Files};
-use super::{Diagnostic, Label, Severity, Suggestion};
+use super::{Diagnostic, Severity, Span, Suggestion};
 use crate::hry::Sources;
 use annotate_snippets::{Annotation, AnnotationKind, Level, Origin, Patch, Renderer, Snippet};
-use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
 /// The longest replacement that is spelt out as a patch of the source.
@@ -18,16 +17,17 @@ const LONGEST_PATCH: usize = 200;
 /// size only the lines that carry a label are copied, and of long lines only the surroundings of the labels.
 #[must_use]
 pub fn render(diagnostics: &[Diagnostic], file_name: &str, source: &str, color: bool) -> String {
-    page(Files::single(file_name, source, diagnostics), diagnostics, color)
+    write(diagnostics, &Files::one(file_name, source, diagnostics), color)
 }
 
-/// The diagnostics of a program as text, as [`render`] makes it: each label in its own file.
+/// The same of diagnostics whose spans are offsets into the files of a program: each label is shown in its own file,
+/// that of the primary one first.
 #[must_use]
 pub fn render_sources(diagnostics: &[Diagnostic], sources: &Sources, color: bool) -> String {
-    page(Files::of(sources, diagnostics), diagnostics, color)
+    write(diagnostics, &Files::of(sources, diagnostics), color)
 }
 
-fn page(files: Files<'_>, diagnostics: &[Diagnostic], color: bool) -> String {
+fn write(diagnostics: &[Diagnostic], files: &Files<'_>, color: bool) -> String {
     // The excerpts are cut to size already, so no line is to be cut again.
     let renderer = if color { Renderer::styled() } else { Renderer::plain() }.term_width(10_000);
     let page = Page { files, renderer };
@@ -43,27 +43,28 @@ fn page(files: Files<'_>, diagnostics: &[Diagnostic], color: bool) -> String {
     text
 }
 
-/// What all diagnostics of a program share.
+/// What all diagnostics share.
 struct Page<'a> {
-    files: Files<'a>,
+    files: &'a Files<'a>,
     renderer: Renderer,
 }
 
-/// An excerpt, and what it is of.
-struct Shown<'p, 'a> {
-    file: &'p File<'a>,
+/// An excerpt of one of the files. Its labels are numbered as in the diagnostic.
+struct Shown<'a> {
+    file: &'a File<'a>,
     excerpt: Excerpt,
 }
 
-impl<'a> Page<'a> {
+impl Page<'_> {
     fn render(&self, diagnostic: &Diagnostic) -> String {
         let level = match diagnostic.severity {
             Severity::Error => Level::ERROR,
             Severity::Warning => Level::WARNING,
         };
-        let labels: Vec<&Label> = std::iter::once(&diagnostic.primary).chain(&diagnostic.secondary).collect();
+        let labels: Vec<_> = std::iter::once(&diagnostic.primary).chain(&diagnostic.secondary).collect();
         let texts: Vec<String> = labels.iter().map(|label| clean(&label.text)).collect();
-        let shown = if diagnostic.is_about_the_file() { Vec::new() } else { self.shown(&labels) };
+        let spans: Vec<(usize, Span)> = labels.iter().map(|label| self.files.local(label.span)).collect();
+        let shown = if diagnostic.is_about_the_file() { Vec::new() } else { self.shown(&spans) };
 
         let mut group = level.primary_title(clean(&diagnostic.message)).id(diagnostic.code).elements(
             shown.iter().map(|Shown { file, excerpt }| {
@@ -74,16 +75,14 @@ impl<'a> Page<'a> {
                     .annotations(annotations)
             }),
         );
-        if shown.is_empty()
-            && let Some(file) = self.files.get(self.files.position(diagnostic.primary.span))
-        {
+        if let (true, Some(file)) = (shown.is_empty(), spans.first().and_then(|(file, _)| self.files.get(*file))) {
             group = group.element(Origin::path(&file.name));
         }
         group = group.elements(diagnostic.notes.iter().map(|note| Level::NOTE.message(clean_lines(note))));
         group = group.elements(diagnostic.help.iter().map(|help| Level::HELP.message(clean_lines(help))));
         let patched = diagnostic.suggestion.as_ref().map(|suggestion| self.patched(suggestion));
         let text = match (&patched, &diagnostic.suggestion) {
-            (Some(Some((Shown { file, excerpt }, patch))), Some(suggestion)) => {
+            (Some(Some((file, excerpt, patch))), Some(suggestion)) => {
                 let snippet = Snippet::source(&excerpt.text).line_start(excerpt.line).path(&file.name);
                 let title = Level::HELP.secondary_title(clean(&suggestion.text));
                 self.renderer.render(&[group, title.element(snippet.patch(patch.clone()))])
@@ -94,70 +93,72 @@ impl<'a> Page<'a> {
             }
             _ => self.renderer.render(&[group]),
         };
-        self.with_true_columns(text, &shown, &labels)
+        with_true_columns(text, &shown, &spans)
     }
 
-    /// What is shown of the files for some labels. What holds the first of them goes first: it gives the diagnostic
-    /// its place.
-    fn shown(&self, labels: &[&Label]) -> Vec<Shown<'_, 'a>> {
-        let mut by_file: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
-        for (index, label) in labels.iter().enumerate() {
-            by_file.entry(self.files.position(label.span)).or_default().push(index);
-        }
-        let mut shown = Vec::new();
-        for (position, indices) in by_file {
-            let Some(file) = self.files.get(position) else { continue };
-            let spans = indices.iter().filter_map(|index| labels.get(*index)).map(|label| file.fit(label.span));
-            for mut excerpt in excerpts(file.text, &file.locations, &spans.collect::<Vec<_>>()) {
-                for (index, _) in &mut excerpt.labels {
-                    *index = indices.get(*index).copied().unwrap_or_default();
-                }
-                shown.push(Shown { file, excerpt });
+    /// The excerpts that show spans (each with the number of its file), file by file; the excerpt of the first span
+    /// goes first: it gives the diagnostic its place.
+    fn shown(&self, spans: &[(usize, Span)]) -> Vec<Shown<'_>> {
+        let mut order: Vec<usize> = Vec::new();
+        for (file, _) in spans {
+            if !order.contains(file) {
+                order.push(*file);
             }
         }
-        shown.sort_by_key(|shown| !shown.excerpt.labels.iter().any(|(index, _)| *index == 0));
+        let mut shown = Vec::new();
+        for number in order {
+            let Some(file) = self.files.get(number) else { continue };
+            let mine = || spans.iter().enumerate().filter(|(_, (of, _))| *of == number);
+            let numbers: Vec<usize> = mine().map(|(index, _)| index).collect();
+            let here: Vec<Span> = mine().map(|(_, (_, span))| *span).collect();
+            let mut excerpts = excerpts(file.text, &file.locations, &here);
+            for (index, _) in excerpts.iter_mut().flat_map(|excerpt| &mut excerpt.labels) {
+                *index = numbers.get(*index).copied().unwrap_or(usize::MAX);
+            }
+            excerpts.sort_by_key(|excerpt| !excerpt.labels.iter().any(|(index, _)| *index == 0));
+            shown.extend(excerpts.into_iter().map(|excerpt| Shown { file, excerpt }));
+        }
         shown
     }
 
     /// The excerpt that shows a suggestion, and the suggestion as a change of that excerpt. None where it
     /// spans lines or is long: then its words have to do.
-    fn patched<'s>(&self, suggestion: &'s Suggestion) -> Option<(Shown<'_, 'a>, Patch<'s>)> {
-        let file = self.files.get(self.files.position(suggestion.span))?;
-        let span = file.fit(suggestion.span);
-        let whole = span.end - span.start == suggestion.span.end.saturating_sub(suggestion.span.start);
-        let one_line = whole && !suggestion.replacement.contains(['\n', '\r']);
+    fn patched<'s>(&self, suggestion: &'s Suggestion) -> Option<(&File<'_>, Excerpt, Patch<'s>)> {
+        let (number, span) = self.files.local(suggestion.span);
+        let file = self.files.get(number)?;
+        let fits = span.start + file.base == suggestion.span.start && span.end + file.base == suggestion.span.end;
+        let one_line = fits && !suggestion.replacement.contains(['\n', '\r']);
         if !one_line || suggestion.replacement.len() > LONGEST_PATCH {
             return None;
         }
         let excerpt = excerpts(file.text, &file.locations, &[span]).pop()?;
         let range = excerpt.labels.first()?.1.clone();
         let whole = range.len() == span.end - span.start;
-        whole.then(|| (Shown { file, excerpt }, Patch::new(range, clean(&suggestion.replacement))))
+        whole.then(|| (file, excerpt, Patch::new(range, clean(&suggestion.replacement))))
     }
+}
 
-    /// The layout derives columns from the excerpt; where that is only a part of the line, this puts the
-    /// column in the file in its stead.
-    fn with_true_columns(&self, mut text: String, shown: &[Shown<'_, '_>], labels: &[&Label]) -> String {
-        let mut from = text.find('\n').unwrap_or(0);
-        for Shown { file, excerpt } in shown {
-            // The label that the layout takes: the primary one where there is one, else the first.
-            let primary = excerpt.labels.iter().find(|(index, _)| *index == 0);
-            let Some((index, range)) = primary.or(excerpt.labels.first()) else { continue };
-            let start = labels.get(*index).map_or(0, |label| file.fit(label.span).start);
-            let place = file.locations.get(start);
-            let before = excerpt.text.get(..range.start).unwrap_or_default();
-            let shown = before.chars().rev().take_while(|c| *c != '\n').count() + 1;
-            let printed = format!("{}:{}:{shown}", file.name, place.line);
-            let Some(at) = text.get(from..).and_then(|rest| rest.find(&printed)).map(|at| at + from) else {
-                continue;
-            };
-            let mut truth = String::new();
-            let _ = write!(truth, "{}:{}:{}", file.name, place.line, place.column);
-            text.replace_range(at..at + printed.len(), &truth);
-            from = at + truth.len();
-        }
-        text
+/// The layout derives columns from the excerpt; where that is only a part of the line, this puts the
+/// column in the file in its stead.
+fn with_true_columns(mut text: String, shown: &[Shown<'_>], spans: &[(usize, Span)]) -> String {
+    let mut from = text.find('\n').unwrap_or(0);
+    for Shown { file, excerpt } in shown {
+        // The label that the layout takes: the primary one where there is one, else the first.
+        let primary = excerpt.labels.iter().find(|(index, _)| *index == 0);
+        let Some((index, range)) = primary.or(excerpt.labels.first()) else { continue };
+        let place = file.locations.get(spans.get(*index).map_or(0, |(_, span)| span.start));
+        let before = excerpt.text.get(..range.start).unwrap_or_default();
+        let column = before.chars().rev().take_while(|c| *c != '\n').count() + 1;
+        let printed = format!("{}:{}:{column}", file.name, place.line);
+        let Some(at) = text.get(from..).and_then(|rest| rest.find(&printed)).map(|at| at + from) else {
+            continue;
+        };
+        let mut truth = String::new();
+        let _ = write!(truth, "{}:{}:{}", file.name, place.line, place.column);
+        text.replace_range(at..at + printed.len(), &truth);
+        from = at + truth.len();
     }
+    text
 }
 
 fn annotation<'t>((index, range): &(usize, std::ops::Range<usize>), texts: &'t [String]) -> Annotation<'t> {
