@@ -74,7 +74,9 @@ impl InputError {
             Self::NoDirectory { .. } => "it is no directory".to_owned(),
             Self::OutsideRoot { .. } => "it does not lie in the root folder".to_owned(),
             Self::Image { reason, .. } => reason.clone(),
-            Self::TooLarge { limit, .. } => format!("it is longer than {}, the most that is read", Bytes(*limit)),
+            Self::TooLarge { limit, .. } => {
+                format!("it is longer than {}, the most that is read", Bytes(*limit))
+            }
             Self::Io { source, .. } => format!("{}{}", Cause(source), advice(source)),
         }
     }

@@ -37,6 +37,11 @@ impl FolderAssets {
         Ok((Self::new(root.map(Folder::open).transpose()?), NO_PATH.to_owned()))
     }
 
+    /// Nothing to read.
+    pub(crate) fn nothing() -> Self {
+        Self::new(None)
+    }
+
     fn new(folder: Option<Folder>) -> Self {
         Self { folder, images: Mutex::default() }
     }
