@@ -25,6 +25,13 @@ pub enum InputError {
         /// The path as it was given.
         path: PathBuf,
     },
+    /// A scene does not lie in the folder that it may read from.
+    OutsideRoot {
+        /// The scene's path as it was given.
+        path: PathBuf,
+        /// The folder.
+        root: PathBuf,
+    },
     /// It is no image that can be read.
     Image {
         /// The path as it was given.
@@ -57,6 +64,22 @@ impl InputError {
             _ => Self::Io { path, source },
         }
     }
+
+    /// What is wrong, without the path, in words that follow "cannot be read: ".
+    #[must_use]
+    pub fn reason(&self) -> String {
+        match self {
+            Self::Missing { .. } => "there is no such file".to_owned(),
+            Self::Directory { .. } => "it is a directory".to_owned(),
+            Self::NoDirectory { .. } => "it is no directory".to_owned(),
+            Self::OutsideRoot { .. } => "it does not lie in the root folder".to_owned(),
+            Self::Image { reason, .. } => reason.clone(),
+            Self::TooLarge { limit, .. } => {
+                format!("it is longer than {}, the most that is read", Bytes(*limit))
+            }
+            Self::Io { source, .. } => format!("{}{}", Cause(source), advice(source)),
+        }
+    }
 }
 
 impl fmt::Display for InputError {
@@ -82,6 +105,12 @@ impl fmt::Display for InputError {
             Self::NoDirectory { path } => {
                 write!(f, "{} is no directory; give the name of one", Named(path, "the standard input"))
             }
+            Self::OutsideRoot { path, root } => write!(
+                f,
+                "the scene {} does not lie in the root folder {}; the root is the scene's own folder or one further up",
+                Quoted(path),
+                Quoted(root)
+            ),
             Self::Image { path, reason } => {
                 write!(f, "cannot read {}: {reason}", Named(path, "the standard input"))
             }

@@ -136,6 +136,12 @@ impl Diagnostic {
         self.severity == Severity::Error
     }
 
+    /// Whether it is about a file as a whole, such as one that lacks something: it points at nothing.
+    #[must_use]
+    pub fn is_about_the_file(&self) -> bool {
+        self.primary.span.is_empty() && self.primary.text.is_empty() && self.secondary.is_empty()
+    }
+
     /// Every span it mentions.
     pub fn spans(&self) -> impl Iterator<Item = Span> {
         let labels = std::iter::once(&self.primary).chain(&self.secondary).map(|label| label.span);

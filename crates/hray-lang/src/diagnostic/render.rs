@@ -4,7 +4,7 @@ use super::excerpt::{Excerpt, excerpts};
 use super::files::{File, Files};
 use super::{Diagnostic, Severity, Span, Suggestion};
 use crate::hry::Sources;
-use annotate_snippets::{Annotation, AnnotationKind, Level, Patch, Renderer, Snippet};
+use annotate_snippets::{Annotation, AnnotationKind, Level, Origin, Patch, Renderer, Snippet};
 use std::fmt::Write as _;
 
 /// The longest replacement that is spelt out as a patch of the source.
@@ -64,7 +64,7 @@ impl Page<'_> {
         let labels: Vec<_> = std::iter::once(&diagnostic.primary).chain(&diagnostic.secondary).collect();
         let texts: Vec<String> = labels.iter().map(|label| clean(&label.text)).collect();
         let spans: Vec<(usize, Span)> = labels.iter().map(|label| self.files.local(label.span)).collect();
-        let shown = self.shown(&spans);
+        let shown = if diagnostic.is_about_the_file() { Vec::new() } else { self.shown(&spans) };
 
         let mut group = level.primary_title(clean(&diagnostic.message)).id(diagnostic.code).elements(
             shown.iter().map(|Shown { file, excerpt }| {
@@ -75,6 +75,9 @@ impl Page<'_> {
                     .annotations(annotations)
             }),
         );
+        if let (true, Some(file)) = (shown.is_empty(), spans.first().and_then(|(file, _)| self.files.get(*file))) {
+            group = group.element(Origin::path(&file.name));
+        }
         group = group.elements(diagnostic.notes.iter().map(|note| Level::NOTE.message(clean_lines(note))));
         group = group.elements(diagnostic.help.iter().map(|help| Level::HELP.message(clean_lines(help))));
         let patched = diagnostic.suggestion.as_ref().map(|suggestion| self.patched(suggestion));
