@@ -212,3 +212,32 @@ fn a_device_takes_what_a_file_takes() {
         assert!(file == written(format, side, side, &pixels, 4096), "{format}, {side}");
     }
 }
+
+/// What a decoder finds in a file of linear light 0.5: 188 of 255, 0.735 of 65535, and 0.5 itself.
+#[test]
+fn srgb_is_encoded_in_every_format_but_open_exr() {
+    let pixels = [Rgb::new(0.5, 0.5, 0.5); 16 * 16];
+    for format in PictureFormat::ALL {
+        let memory = Memory::default();
+        let mut writer = PictureWriter::to_writer(memory.clone(), Path::new("-"), format, 16, 16).unwrap();
+        writer.write(&format.encode(&pixels, Encoding::Srgb)).unwrap();
+        writer.finish().unwrap();
+        let bytes = memory.0.lock().unwrap().clone();
+        match format {
+            PictureFormat::PpmAscii => assert!(bytes.ends_with(b" 188 188 ")),
+            PictureFormat::Exr => {
+                assert!(decoded(&bytes, format).to_rgb32f().into_raw().iter().all(|c| *c == 0.5));
+            }
+            PictureFormat::Farbfeld => {
+                let words = decoded(&bytes, format).to_rgba16().into_raw();
+                assert_eq!(words[0], (65535.0 * 0.735_356_983_052_449_9f64).round() as u16);
+            }
+            _ => {
+                assert!(
+                    decoded(&bytes, format).to_rgb8().into_raw().iter().all(|c| c.abs_diff(188) <= 1),
+                    "{format}"
+                );
+            }
+        }
+    }
+}

@@ -1,23 +1,80 @@
-//! Placeholder until the parser lands.
+//! The syntax of hry: text to tokens, to a tree that keeps every character, and to the abstract syntax.
+//!
+//! - `lexer`: tokens, and what is said about characters.
+//! - `brackets`: which brackets belong together, decided before anything is parsed.
+//! - `parser`: the nodes; goes on after an error.
+//! - `tree`: the nodes as a list, and as the lossless tree.
+//! - `lower`: the abstract syntax.
+//! - `complaint`: all messages.
+//!
+//! All of it takes time in proportion to the text, and limits how deep anything is nested, so that whoever walks over the
+//! tree may recurse.
+
+mod brackets;
+mod complaint;
+mod kind;
+mod lexer;
+mod lower;
+mod parser;
+mod tree;
+
+pub use kind::{Hry, SyntaxElement, SyntaxKind, SyntaxNode, SyntaxToken};
+
 use super::ast::Module;
-use crate::diagnostic::Diagnostic;
-/// Parses.
-#[must_use]
-pub fn parse(_text: &str, _base: usize) -> Parse {
-    Parse
+use crate::diagnostic::{Diagnostic, Span};
+use lexer::Token;
+use std::sync::Arc;
+use tree::Node;
+
+/// The largest text that is read, in bytes.
+const LARGEST: usize = 1 << 30;
+
+/// A text that was read.
+#[derive(Clone, Debug)]
+pub struct Parse {
+    text: Arc<str>,
+    base: usize,
+    tokens: Vec<Token>,
+    nodes: Vec<Node>,
+    errors: Vec<Diagnostic>,
 }
-/// A parse.
-#[derive(Debug)]
-pub struct Parse;
+
+/// Reads a text, whatever it is. `base` is the offset of its first byte: it is added to every span.
+///
+/// What cannot be read is reported, and is an [`ErrorExpr`](SyntaxKind::ErrorExpr) or the like in the tree. A text of more
+/// than a gibibyte is not read at all.
+#[must_use]
+pub fn parse(text: &str, base: usize) -> Parse {
+    if text.len() > LARGEST {
+        let error =
+            Diagnostic::error("file-too-large", "this file is too large", Span::at(base), "more than 1 GiB");
+        let errors = vec![error];
+        return Parse { text: Arc::from(""), base, tokens: Vec::new(), nodes: Vec::new(), errors };
+    }
+    let (mut tokens, mut errors) = lexer::lex(text, base);
+    let brackets = brackets::check(text, base, &mut tokens);
+    let (nodes, found) = parser::parse(text, base, &tokens, &brackets);
+    errors.extend(brackets.errors);
+    errors.extend(found);
+    Parse { text: Arc::from(text), base, tokens, nodes, errors: parser::tidy(errors) }
+}
+
 impl Parse {
-    /// The module.
+    /// The abstract syntax. Definitions that could be read are in it, whatever else is wrong.
     #[must_use]
     pub fn module(&self) -> Module {
-        Module::default()
+        lower::module(&self.text, self.base, &self.tokens, &self.nodes)
     }
-    /// The errors.
+
+    /// What is wrong with the text, in its order; the twenty first errors at most.
     #[must_use]
     pub fn errors(&self) -> &[Diagnostic] {
-        &[]
+        &self.errors
+    }
+
+    /// The lossless tree: its text is the text that was read. Its offsets begin at 0.
+    #[must_use]
+    pub fn root(&self) -> SyntaxNode {
+        tree::lossless(&self.text, &self.tokens, &self.nodes)
     }
 }

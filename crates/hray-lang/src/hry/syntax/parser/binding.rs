@@ -1,0 +1,211 @@
+//! A file and its bindings: imports, annotations, definitions; `let`.
+
+use super::super::brackets::defines;
+use super::super::kind::SyntaxKind;
+use super::{Around, Done, Layout, Mark, Parser, Set};
+
+/// An annotation that waits for its definition.
+#[derive(Clone, Copy, Debug)]
+pub(in super::super) struct Promise {
+    /// The token of its name.
+    name: usize,
+}
+
+impl Promise {
+    pub(in super::super) const fn name(self) -> usize {
+        self.name
+    }
+}
+
+impl Parser<'_> {
+    pub(super) fn file(&mut self) {
+        let start = self.mark();
+        let mut promise = None;
+        while self.at < self.tokens.len() {
+            let before = self.at;
+            self.layout_here();
+            if self.is(SyntaxKind::ImportKeyword) {
+                self.kept_promise(&mut promise, None);
+                self.import();
+            } else if self.begins_definition() {
+                self.binding(&mut promise, true);
+            } else {
+                self.no_definition();
+                self.skip_binding(Set::of(&[]));
+            }
+            self.layouts.pop();
+            if self.at == before {
+                self.at += 1;
+            }
+            self.look();
+        }
+        self.kept_promise(&mut promise, None);
+        self.node(SyntaxKind::File, start);
+    }
+
+    /// A binding begins here: its column says where it ends.
+    fn layout_here(&mut self) {
+        let column = self.token().map_or(0, |token| token.column);
+        self.layouts.push(Layout { limit: column + 1, brackets: self.open, first: self.at });
+        self.look();
+    }
+
+    /// `import "path" (names)`, `import "path" as name`
+    fn import(&mut self) {
+        let start = self.mark();
+        self.bump();
+        if self.is(SyntaxKind::Text) {
+            self.bump();
+        } else {
+            self.fail(Self::no_path);
+            self.skip_binding(Set::of(&[]));
+            self.node(SyntaxKind::Import, start);
+            return;
+        }
+        if self.is(SyntaxKind::AsKeyword) {
+            self.bump();
+            if !self.eat(SyntaxKind::Name) {
+                self.fail(Self::no_import_name);
+            }
+        } else if self.is(SyntaxKind::OpenParen) {
+            let outer = self.open();
+            self.elements(SyntaxKind::CloseParen, |parser| {
+                if !parser.eat(SyntaxKind::Name) {
+                    parser.fail(Self::no_import_name);
+                }
+            });
+            self.close(SyntaxKind::CloseParen, outer);
+        }
+        if !self.is_end() {
+            self.fail(Self::after_import);
+            self.skip_binding(Set::of(&[]));
+        }
+        self.node(SyntaxKind::Import, start);
+    }
+
+    /// An annotation or a definition, in a layout of its own; how deep it is.
+    fn binding(&mut self, promise: &mut Option<Promise>, is_top: bool) -> u32 {
+        let (start, first) = (self.mark(), self.at);
+        self.pattern(false);
+        if self.is(SyntaxKind::Colon) {
+            self.kept_promise(promise, None);
+            if self.kind_of(first) == SyntaxKind::Name {
+                *promise = Some(Promise { name: first });
+            }
+            self.bump();
+            self.type_expr();
+            self.end_of_annotation(first);
+            self.node(SyntaxKind::Annotation, start);
+            return 1;
+        }
+        self.kept_promise(promise, Some(first));
+        if is_top {
+            self.check_target(first);
+        }
+        while self.begins_pattern() {
+            self.pattern(false);
+        }
+        let body = self.mark();
+        let height = if self.is(SyntaxKind::Define) {
+            self.bump();
+            self.inside(Around::Binding, Self::expr).height
+        } else {
+            self.fail(|parser| parser.no_define(first));
+            self.error_expr(body).height
+        };
+        self.end_of_binding(first, is_top);
+        self.node(SyntaxKind::Definition, start);
+        height + 1
+    }
+
+    /// Everything up to the end of the binding.
+    fn skip_binding(&mut self, stop: Set) {
+        let start = self.mark();
+        self.skip_until(stop);
+        self.error_since(start);
+    }
+
+    /// What is left of a binding after its body was read: nothing, if all is well.
+    fn end_of_binding(&mut self, first: usize, is_top: bool) {
+        let is_over = self.is_end()
+            || !is_top && self.is(SyntaxKind::InKeyword)
+            || self.open > 0 && (self.is(SyntaxKind::Comma) || self.current.is_close());
+        if is_over {
+            return;
+        }
+        self.fail(|parser| parser.after_body(first, is_top));
+        let stop: &[SyntaxKind] = match (is_top, self.open > 0) {
+            (true, _) => &[],
+            (false, true) => &[SyntaxKind::InKeyword, SyntaxKind::Comma],
+            (false, false) => &[SyntaxKind::InKeyword],
+        };
+        self.skip_binding(Set::of(stop));
+    }
+
+    fn end_of_annotation(&mut self, first: usize) {
+        if self.is_end() || self.is(SyntaxKind::InKeyword) {
+            return;
+        }
+        self.fail(|parser| parser.after_annotation(first));
+        self.skip_binding(Set::of(&[SyntaxKind::InKeyword]));
+    }
+
+    /// `let bindings in body`
+    pub(super) fn let_in(&mut self) -> Done {
+        let (start, first) = (self.mark(), self.at);
+        self.bump();
+        let height = self.let_bindings();
+        if !self.eat(SyntaxKind::InKeyword) {
+            self.fail(|parser| parser.no_in(first));
+        }
+        let around = if self.around == Around::Subject { Around::Condition } else { self.around };
+        let body = self.inside(around, Self::expr);
+        self.expr_node(SyntaxKind::LetExpr, start, height.max(body.height))
+    }
+
+    /// The bindings after `let`; how deep they are.
+    pub(super) fn let_bindings(&mut self) -> u32 {
+        let mut promise = None;
+        let mut height = 0;
+        let mut count = 0;
+        while self.begins_let_binding(count) {
+            let before = self.at;
+            self.layout_here();
+            let read = self.nested(|parser| parser.binding(&mut promise, false));
+            height = height.max(read.unwrap_or(0));
+            self.layouts.pop();
+            self.look();
+            count += 1;
+            if self.at == before {
+                break;
+            }
+            self.between_bindings();
+        }
+        if count == 0 {
+            self.fail(Self::no_binding);
+        }
+        self.kept_promise(&mut promise, None);
+        height
+    }
+
+    /// Whether another binding of a `let` begins here.
+    fn begins_let_binding(&self, count: usize) -> bool {
+        self.begins_pattern()
+            && (count == 0
+                || self.kind_ahead(1) == SyntaxKind::Colon
+                || defines(self.tokens, self.at).is_some())
+    }
+
+    /// Whether a definition begins here.
+    fn begins_definition(&self) -> bool {
+        match self.current {
+            SyntaxKind::Name | SyntaxKind::TypeName => true,
+            _ => self.begins_pattern() && defines(self.tokens, self.at).is_some(),
+        }
+    }
+
+    /// The place where a node began, as a token.
+    pub(in super::super) const fn token_of(start: Mark) -> usize {
+        start.token as usize
+    }
+}

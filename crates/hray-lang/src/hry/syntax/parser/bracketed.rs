@@ -1,0 +1,171 @@
+//! Expressions in brackets: parentheses, vectors, lists, records.
+
+use super::super::kind::SyntaxKind;
+use super::{Around, Done, Mark, Parser, Set};
+
+impl Parser<'_> {
+    /// Elements separated by commas up to a closing bracket; a comma may follow the last.
+    pub(super) fn elements(&mut self, closing: SyntaxKind, mut element: impl FnMut(&mut Self)) {
+        while !self.is(closing) && !self.is_end() {
+            let before = self.at;
+            element(self);
+            if self.is(closing) || self.is_end() {
+                return;
+            }
+            if self.is(SyntaxKind::Comma) {
+                self.bump();
+                continue;
+            }
+            if self.separator(closing) {
+                continue;
+            }
+            self.skip_until(Set::of(&[SyntaxKind::Comma]));
+            if !self.eat(SyntaxKind::Comma) && self.at == before {
+                return;
+            }
+        }
+    }
+
+    /// `(expression)`, `(x, y)`, `(x, y, z)`, `(expression : type)`
+    pub(super) fn parenthesised(&mut self) -> Done {
+        let (start, first) = (self.mark(), self.at);
+        let outer = self.open();
+        let (mut count, mut height) = (0, 0);
+        let mut kind = SyntaxKind::ParenExpr;
+        if self.is(SyntaxKind::CloseParen) {
+            self.empty_parentheses(first);
+        }
+        self.elements(SyntaxKind::CloseParen, |parser| {
+            let done = parser.inside(Around::Condition, Self::expr);
+            (count, height) = (count + 1, height.max(done.height));
+            if parser.is(SyntaxKind::Colon) && count == 1 {
+                parser.bump();
+                parser.type_expr();
+                kind = SyntaxKind::AnnotatedExpr;
+            }
+        });
+        let has_comma = self.at.checked_sub(1).is_some_and(|last| self.kind_of(last) == SyntaxKind::Comma);
+        self.close(SyntaxKind::CloseParen, outer);
+        let kind = match count {
+            1 if has_comma => self.one_component(first),
+            1 => kind,
+            2 | 3 => SyntaxKind::VectorExpr,
+            0 => SyntaxKind::ErrorExpr,
+            _ => self.too_many_components(first, count),
+        };
+        self.expr_node(kind, start, height)
+    }
+
+    pub(in super::super) fn kind_of(&self, token: usize) -> SyntaxKind {
+        self.tokens.get(token).map_or(SyntaxKind::End, |token| token.kind)
+    }
+
+    /// `[a, b]`, `[first .. last]`, `[first, second .. last]`, `[body | qualifiers]`
+    pub(super) fn list(&mut self) -> Done {
+        let start = self.mark();
+        let outer = self.open();
+        let (mut count, mut height) = (0_usize, 0);
+        let mut kind = SyntaxKind::ListExpr;
+        self.elements(SyntaxKind::CloseBracket, |parser| {
+            if parser.is(SyntaxKind::DotDot) {
+                parser.range_without_start(count);
+            } else {
+                height = height.max(parser.inside(Around::Condition, Self::expr).height);
+                count += 1;
+            }
+            if parser.is(SyntaxKind::DotDot) && kind == SyntaxKind::ListExpr {
+                kind = parser.range_end(count, &mut height);
+            } else if parser.is(SyntaxKind::Bar) && kind == SyntaxKind::ListExpr {
+                kind = parser.qualifiers(count, &mut height);
+            }
+        });
+        self.close(SyntaxKind::CloseBracket, outer);
+        self.expr_node(kind, start, height)
+    }
+
+    /// `.. last]` after one or two elements.
+    fn range_end(&mut self, count: usize, height: &mut u32) -> SyntaxKind {
+        if count > 2 {
+            self.long_range();
+        }
+        self.bump();
+        if self.is(SyntaxKind::CloseBracket) {
+            self.endless_range();
+            return SyntaxKind::ErrorExpr;
+        }
+        *height = (*height).max(self.inside(Around::Condition, Self::expr).height);
+        if !self.is(SyntaxKind::CloseBracket) {
+            self.fail(Self::after_range);
+            self.skip_until(Set::of(&[]));
+        }
+        if count > 2 { SyntaxKind::ErrorExpr } else { SyntaxKind::RangeExpr }
+    }
+
+    /// `{ a = 1, b }`, `{ record | a = 1 }`
+    pub(super) fn record(&mut self) -> Done {
+        let start = self.mark();
+        let outer = self.open();
+        let mut height = 0;
+        let mut kind = SyntaxKind::RecordExpr;
+        if self.begins_update() {
+            height = self.inside(Around::Binding, Self::expr).height;
+            kind = SyntaxKind::UpdateExpr;
+            if self.is(SyntaxKind::Bar) {
+                self.bump();
+                if self.is(SyntaxKind::CloseBrace) {
+                    self.fail(Self::no_fields);
+                }
+            } else {
+                self.fail(|parser| parser.not_a_record(start));
+                self.skip_until(Set::of(&[SyntaxKind::Comma]));
+                self.eat(SyntaxKind::Comma);
+                kind = SyntaxKind::ErrorExpr;
+            }
+        }
+        self.elements(SyntaxKind::CloseBrace, |parser| height = height.max(parser.field()));
+        self.close(SyntaxKind::CloseBrace, outer);
+        self.expr_node(kind, start, height)
+    }
+
+    /// Whether what is in braces begins with the record that is to be changed.
+    fn begins_update(&self) -> bool {
+        match self.current {
+            SyntaxKind::CloseBrace | SyntaxKind::End | SyntaxKind::Comma => false,
+            SyntaxKind::Name | SyntaxKind::TypeName | SyntaxKind::Text => !matches!(
+                self.kind_ahead(1),
+                SyntaxKind::Define
+                    | SyntaxKind::Comma
+                    | SyntaxKind::CloseBrace
+                    | SyntaxKind::Colon
+                    | SyntaxKind::Semicolon
+            ),
+            kind => !kind.is_keyword() || self.kind_ahead(1) != SyntaxKind::Define,
+        }
+    }
+
+    /// `name = value` or `name`; how deep it is.
+    fn field(&mut self) -> u32 {
+        let start = self.mark();
+        if !self.field_label() {
+            self.skip_until(Set::of(&[SyntaxKind::Comma]));
+            return 0;
+        }
+        let mut height = 1;
+        if self.defines_field() {
+            self.bump();
+            height += self.inside(Around::Binding, Self::expr).height;
+        } else if self.begins_value() {
+            self.fail(Self::missing_equals);
+            height += self.inside(Around::Binding, Self::expr).height;
+        }
+        self.node(SyntaxKind::FieldValue, start);
+        height
+    }
+
+    /// Makes an error node of everything since `start`.
+    pub(super) fn error_since(&mut self, start: Mark) {
+        if self.mark().token > start.token {
+            self.node(SyntaxKind::ErrorExpr, start);
+        }
+    }
+}
