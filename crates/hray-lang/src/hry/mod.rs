@@ -7,6 +7,7 @@ pub mod library;
 pub mod program;
 mod sources;
 pub mod syntax;
+pub mod types;
 
 pub use program::Program;
 pub use sources::{STANDARD_BASE, SourceFile, Sources};
