@@ -3,6 +3,7 @@
 pub mod assets;
 pub mod ast;
 pub mod eval;
+pub mod ide;
 pub mod library;
 pub mod program;
 mod sources;

@@ -61,7 +61,8 @@ impl<'s> Printer<'s> {
             let Some(kind) = self.store.kind(*variable) else { continue };
             let special = !kind.is_any() && kind.name().is_none() && kind != Kind::EQUATABLE;
             let variable = self.show(*variable);
-            let is_record = kind.meet(Kind::of(&[Head::Record])) == Kind::of(&[Head::Record]) && !demands.is_empty();
+            let is_record =
+                kind.meet(Kind::of(&[Head::Record])) == Kind::of(&[Head::Record]) && !demands.is_empty();
             if special && !is_record {
                 demands.push(format!("{variable} is {}", kind.words()));
             }
@@ -166,7 +167,9 @@ impl<'s> Printer<'s> {
 
     fn plural(&mut self, ty: Ty) -> Option<String> {
         match self.store.get(ty) {
-            Node::List(of) => Some(self.plural(*of).map_or_else(|| "lists".into(), |of| format!("lists of {of}"))),
+            Node::List(of) => {
+                Some(self.plural(*of).map_or_else(|| "lists".into(), |of| format!("lists of {of}")))
+            }
             Node::Function(..) => Some(format!("functions (`{}`)", self.show(ty))),
             Node::Record(_) => Some("records".into()),
             _ => self.store.head(ty).map(|head| head.plural().into()),

@@ -164,9 +164,16 @@ impl<'p> Infer<'p> {
         self.call(expr, function, &[value], expected)
     }
 
-    fn append(&mut self, expr: &'p Expr, span: Span, [left, right]: [&'p Expr; 2], expected: Expected<'p>) -> Ty {
+    fn append(
+        &mut self,
+        expr: &'p Expr,
+        span: Span,
+        [left, right]: [&'p Expr; 2],
+        expected: Expected<'p>,
+    ) -> Ty {
         let known = expected.filter(|(ty, _)| {
-            matches!(self.types.store.get(*ty), Node::List(_)) || self.types.store.head(*ty) == Some(Head::Text)
+            matches!(self.types.store.get(*ty), Node::List(_))
+                || self.types.store.head(*ty) == Some(Head::Text)
         });
         if let Some((ty, why)) = known {
             self.expr(left, Some((ty, why)));
@@ -187,8 +194,11 @@ impl<'p> Infer<'p> {
     fn division_by_zero(&mut self, operator: B, span: Span, right: &Expr) {
         if matches!(right.kind, ExprKind::Number(0.0)) {
             let message = format!("`{} 0` is not a number", written(operator));
-            let warning = Diagnostic::warning("division-by-zero", message, span.to(right.span), "divides by zero");
-            self.report(warning.with_help("a surface with such a value is black or white, or not there at all"));
+            let warning =
+                Diagnostic::warning("division-by-zero", message, span.to(right.span), "divides by zero");
+            self.report(
+                warning.with_help("a surface with such a value is black or white, or not there at all"),
+            );
         }
     }
 
@@ -196,7 +206,8 @@ impl<'p> Infer<'p> {
         if let ExprKind::Bool(value) = condition.kind {
             let branch = if value { "else" } else { "then" };
             let message = format!("this condition is always {value}");
-            let warning = Diagnostic::warning("constant-condition", message, condition.span, "always the same");
+            let warning =
+                Diagnostic::warning("constant-condition", message, condition.span, "always the same");
             self.report(warning.with_help(format!("what follows `{branch}` is never used")));
         }
     }

@@ -24,7 +24,8 @@ impl<'p> Infer<'p> {
         let article = if owner == "scene" { "a scene" } else { "" };
         let whose = if article.is_empty() { format!("`{owner}`") } else { article.to_owned() };
         let label = if via.is_some() { "by the record that is given here" } else { "no such field" };
-        let mut error = Diagnostic::error("unknown-field", format!("{whose} has no field `{name}`"), span, label);
+        let mut error =
+            Diagnostic::error("unknown-field", format!("{whose} has no field `{name}`"), span, label);
         if let Some(via) = via {
             error = error.with_secondary(via, format!("the record goes to `{owner}` here"));
         }
@@ -55,8 +56,11 @@ impl<'p> Infer<'p> {
         span: Span,
         via: Option<Span>,
     ) {
-        let missing: Vec<&FieldSpec> =
-            constructor.fields.iter().filter(|field| field.default.is_none() && !given.contains(&field.name)).collect();
+        let missing: Vec<&FieldSpec> = constructor
+            .fields
+            .iter()
+            .filter(|field| field.default.is_none() && !given.contains(&field.name))
+            .collect();
         let Some(first) = missing.first() else { return };
         let owner = constructor.name;
         let names: Vec<&str> = missing.iter().map(|field| field.name).collect();
@@ -64,7 +68,8 @@ impl<'p> Infer<'p> {
             [one] => format!("`{owner}` needs the field `{one}`, which is not given"),
             several => format!("`{owner}` needs the fields {}, which are not given", listed(several)),
         };
-        let mut error = Diagnostic::error("missing-field", message, span, format!("without `{}`", first.name));
+        let mut error =
+            Diagnostic::error("missing-field", message, span, format!("without `{}`", first.name));
         if let Some(via) = via {
             error = error.with_secondary(via, format!("the record goes to `{owner}` here"));
         }
@@ -86,8 +91,13 @@ impl<'p> Infer<'p> {
         let name = constructor.name;
         let message = format!("`{name}` takes a record with named fields, but this is {}", self.words(ty));
         let span = arguments.first().map_or(expr.span, |argument| argument.span);
-        let error = Diagnostic::error("constructor-without-braces", message, span, format!("found `{}`", self.show(ty)))
-            .with_secondary(callee.span, "its fields are given by name, in braces");
+        let error = Diagnostic::error(
+            "constructor-without-braces",
+            message,
+            span,
+            format!("found `{}`", self.show(ty)),
+        )
+        .with_secondary(callee.span, "its fields are given by name, in braces");
         let piped = span.end <= callee.span.start;
         if let (Some(fields), false) = (self.guessed_fields(constructor, arguments), piped) {
             let last = arguments.last().map_or(span, |argument| argument.span);
@@ -138,8 +148,13 @@ impl<'p> Infer<'p> {
         name: Option<Span>,
         via: Option<Span>,
     ) -> Diagnostic {
-        let message =
-            format!("`{}` of `{}` takes {}, but this is {}", field.name, constructor.name, field_words(field), self.words(ty));
+        let message = format!(
+            "`{}` of `{}` takes {}, but this is {}",
+            field.name,
+            constructor.name,
+            field_words(field),
+            self.words(ty)
+        );
         let written = Allowed::written(field);
         let label = format!("expected `{written}`, found `{}`", self.show(ty));
         let mut error = Diagnostic::error("wrong-field", message, span, label);
@@ -161,16 +176,19 @@ impl<'p> Infer<'p> {
         field: &'static FieldSpec,
     ) -> Diagnostic {
         let allowed = Allowed::of(field);
-        let plain = allowed.heads.heads().find(|head| *head != Head::Number).or_else(|| allowed.heads.heads().next());
+        let plain =
+            allowed.heads.heads().find(|head| *head != Head::Number).or_else(|| allowed.heads.heads().next());
         if let Node::Function(given, _) = self.types.store.get(ty) {
             let store = &self.types.store;
             let Some(taken) = allowed.from else {
                 let takes_hit = store.head(*given) == Some(Head::Hit);
                 if takes_hit && matches!(field.kind, FieldType::Number | FieldType::Color | FieldType::Vec3) {
-                    let help = "this field has one value for the whole surface; it cannot vary from hit to hit";
+                    let help =
+                        "this field has one value for the whole surface; it cannot vary from hit to hit";
                     return error.with_help(help);
                 }
-                return plain.map_or(error.clone(), |head| self.hint(error, expr, span, ty, Ty::alone(head), None));
+                return plain
+                    .map_or(error.clone(), |head| self.hint(error, expr, span, ty, Ty::alone(head), None));
             };
             if store.head(*given) != store.head(taken) {
                 return match self.other_or_missing(expr, ty, taken) {
@@ -202,7 +220,10 @@ impl<'p> Infer<'p> {
         let which = if names.len() == before { format!(" ({})", names.join(", ")) } else { String::new() };
         let more = if arguments.is_empty() { "" } else { "still " };
         let count = super::super::infer::counted(before, "argument");
-        Some(format!("`{name}` {more}needs {count}{which} before the {}", if taken == Ty::HIT { "hit" } else { "direction" }))
+        Some(format!(
+            "`{name}` {more}needs {count}{which} before the {}",
+            if taken == Ty::HIT { "hit" } else { "direction" }
+        ))
     }
 
     fn function_hint(&self, error: Diagnostic, span: Span, ty: Ty, taken: Ty) -> Diagnostic {
@@ -230,8 +251,12 @@ impl<'p> Infer<'p> {
 
     /// A `scene` that is no scene.
     pub(in crate::hry::types) fn wrong_scene(&self, body: &'p Expr, ty: Ty) -> Diagnostic {
-        let message = format!("`scene` is a record, or a function from the time in seconds to one, but this is {}", self.words(ty));
-        let error = Diagnostic::error("wrong-scene", message, body.span, format!("found `{}`", self.show(ty)));
+        let message = format!(
+            "`scene` is a record, or a function from the time in seconds to one, but this is {}",
+            self.words(ty)
+        );
+        let error =
+            Diagnostic::error("wrong-scene", message, body.span, format!("found `{}`", self.show(ty)));
         match (self.types.store.get(ty), self.quoted(body.span)) {
             (Node::Alone(Head::Shape), Some(text)) => {
                 error.with_suggestion(body.span, format!("{{ objects = [{text}] }}"), "shapes are the objects of a scene:")
@@ -246,7 +271,8 @@ impl<'p> Infer<'p> {
 
 /// Another constructor, of the same kind of thing, that has such a field.
 fn elsewhere(constructor: &Constructor, name: &str) -> Option<&'static str> {
-    let others = CONSTRUCTORS.iter().filter(|other| other.name != constructor.name && other.field(name).is_some());
+    let others =
+        CONSTRUCTORS.iter().filter(|other| other.name != constructor.name && other.field(name).is_some());
     let mut others: Vec<&Constructor> = others.collect();
     others.sort_by_key(|other| other.makes != constructor.makes);
     others.first().map(|other| other.name)

@@ -27,12 +27,18 @@ impl<'p> Infer<'p> {
                 return self.missing_arguments(error, expr, found, (*from, *to), expected);
             }
         }
-        if let (Node::Function(given, _), Node::Function(taken, _)) = (store.get(found), store.get(expected)) {
+        if let (Node::Function(given, _), Node::Function(taken, _)) = (store.get(found), store.get(expected))
+        {
             return self.other_parameter(error, span, (*given, *taken), found, expected);
         }
         if let (Node::List(of), Some(found)) = (store.get(expected), store.head(found)) {
             if store.head(*of) == Some(found) {
-                return self.suggest(error, span, |text| format!("[{text}]"), "a list of one is written in brackets");
+                return self.suggest(
+                    error,
+                    span,
+                    |text| format!("[{text}]"),
+                    "a list of one is written in brackets",
+                );
             }
         }
         if let (Node::List(of), Some(expected)) = (store.get(found), expected_head) {
@@ -46,7 +52,13 @@ impl<'p> Infer<'p> {
         }
     }
 
-    fn suggest(&self, error: Diagnostic, span: Span, with: impl Fn(&str) -> String, text: &str) -> Diagnostic {
+    fn suggest(
+        &self,
+        error: Diagnostic,
+        span: Span,
+        with: impl Fn(&str) -> String,
+        text: &str,
+    ) -> Diagnostic {
         match self.quoted(span) {
             Some(quoted) => {
                 let replacement = with(quoted);
@@ -61,8 +73,12 @@ impl<'p> Infer<'p> {
             (Head::Shape, Some(Why::Field { .. } | Why::Item { .. })) => {
                 "a list inside a list: join them with `++`, as in `[a, b] ++ list`, or make the list one shape: `group list`"
             }
-            (Head::Shape, _) => "`group list` makes one shape of a list of them; to change each, write `[ f shape | shape <- list ]`",
-            (_, Some(Why::Field { .. } | Why::Item { .. })) => "a list inside a list: join them with `++`, as in `[a, b] ++ list`",
+            (Head::Shape, _) => {
+                "`group list` makes one shape of a list of them; to change each, write `[ f shape | shape <- list ]`"
+            }
+            (_, Some(Why::Field { .. } | Why::Item { .. })) => {
+                "a list inside a list: join them with `++`, as in `[a, b] ++ list`"
+            }
             _ => "`at 0 list` is the first element; to use each, write `[ f x | x <- list ]`",
         };
         error.with_help(help)
@@ -126,20 +142,26 @@ impl<'p> Infer<'p> {
     fn vector_for_number(&self, error: Diagnostic, found: Head, why: Option<Why<'p>>) -> Diagnostic {
         let components = if found == Head::Vec2 { "`.x` and `.y`" } else { "`.x`, `.y` and `.z`" };
         match why {
-            Some(Why::Order(..)) => error.with_help(format!("compare its components ({components}), or its `length`")),
-            _ => error.with_help(format!("it has the numbers {components}; `length v` is the length of a vector v")),
+            Some(Why::Order(..)) => {
+                error.with_help(format!("compare its components ({components}), or its `length`"))
+            }
+            _ => error.with_help(format!(
+                "it has the numbers {components}; `length v` is the length of a vector v"
+            )),
         }
     }
 
     fn vector_for_color(&self, error: Diagnostic, expr: Option<&'p Expr>, span: Span) -> Diagnostic {
         let text = "a colour is made by `rgb` from red, green and blue:";
         if let Some(ExprKind::Vector(parts)) = expr.map(|expr| &expr.kind) {
-            let words: Option<Vec<String>> = parts.iter().map(|part| Some(self.as_argument(part, self.quoted(part.span)?))).collect();
+            let words: Option<Vec<String>> =
+                parts.iter().map(|part| Some(self.as_argument(part, self.quoted(part.span)?))).collect();
             if let Some(words) = words {
                 return error.with_suggestion(span, format!("rgb {}", words.join(" ")), text);
             }
         }
-        error.with_help("a colour is made by `rgb` from red, green and blue: `rgb v.x v.y v.z` for a vector v")
+        error
+            .with_help("a colour is made by `rgb` from red, green and blue: `rgb v.x v.y v.z` for a vector v")
     }
 
     /// An expression as it has to be written where an argument stands.
@@ -185,7 +207,14 @@ impl<'p> Infer<'p> {
     }
 
     /// A function where a plain value is expected: it may lack arguments.
-    fn missing_arguments(&self, error: Diagnostic, expr: &'p Expr, found: Ty, (from, to): (Ty, Ty), expected: Ty) -> Diagnostic {
+    fn missing_arguments(
+        &self,
+        error: Diagnostic,
+        expr: &'p Expr,
+        found: Ty,
+        (from, to): (Ty, Ty),
+        expected: Ty,
+    ) -> Diagnostic {
         let store = &self.types.store;
         if let Some(constructor) = self.named_constructor(expr) {
             return self.bare_constructor(error, expr.span, constructor);
@@ -198,7 +227,10 @@ impl<'p> Infer<'p> {
         let (callee, arguments) = application(expr);
         let Some(name) = self.quoted(callee.span) else { return error };
         if fits && taken.len() == 1 && store.head(from) == Some(Head::Hit) {
-            let text = format!("`{name}` varies over a surface; where there is a hit `h`, its value is `{} h`", self.as_function(expr));
+            let text = format!(
+                "`{name}` varies over a surface; where there is a hit `h`, its value is `{} h`",
+                self.as_function(expr)
+            );
             return error.with_help(text);
         }
         if !fits && !store.is_variable(result) {
@@ -208,20 +240,30 @@ impl<'p> Infer<'p> {
             .filter_map(|index| self.parameter_name(callee, index))
             .map(|name| format!("`{name}`"))
             .collect();
-        let which = if names.len() == taken.len() { format!(": {}", names.join(", ")) } else { String::new() };
+        let which =
+            if names.len() == taken.len() { format!(": {}", names.join(", ")) } else { String::new() };
         let more = if arguments.is_empty() { "" } else { "still " };
         error.with_help(format!("`{name}` {more}needs {}{which}", counted(taken.len(), "argument")))
     }
 
     fn as_function(&self, expr: &Expr) -> String {
-        self.quoted(expr.span).map_or_else(|| "f".into(), |text| match expr.kind {
-            ExprKind::Name(_) | ExprKind::Apply { .. } => text.into(),
-            _ => format!("({text})"),
-        })
+        self.quoted(expr.span).map_or_else(
+            || "f".into(),
+            |text| match expr.kind {
+                ExprKind::Name(_) | ExprKind::Apply { .. } => text.into(),
+                _ => format!("({text})"),
+            },
+        )
     }
 
-    fn bare_constructor(&self, error: Diagnostic, span: Span, constructor: &'static Constructor) -> Diagnostic {
-        let required: Vec<&str> = constructor.fields.iter().filter(|f| f.default.is_none()).map(|f| f.name).collect();
+    fn bare_constructor(
+        &self,
+        error: Diagnostic,
+        span: Span,
+        constructor: &'static Constructor,
+    ) -> Diagnostic {
+        let required: Vec<&str> =
+            constructor.fields.iter().filter(|f| f.default.is_none()).map(|f| f.name).collect();
         let name = constructor.name;
         if required.is_empty() {
             let text = format!("`{name}` takes a record; an empty one leaves all at their defaults:");
@@ -240,7 +282,14 @@ impl<'p> Infer<'p> {
     }
 
     /// A function that takes something else than is given to it.
-    fn other_parameter(&self, error: Diagnostic, span: Span, (given, taken): (Ty, Ty), found: Ty, expected: Ty) -> Diagnostic {
+    fn other_parameter(
+        &self,
+        error: Diagnostic,
+        span: Span,
+        (given, taken): (Ty, Ty),
+        found: Ty,
+        expected: Ty,
+    ) -> Diagnostic {
         let store = &self.types.store;
         match (store.head(given), store.head(taken)) {
             (Some(Head::Vec3), Some(Head::Hit)) => self.suggest(
@@ -259,7 +308,10 @@ impl<'p> Infer<'p> {
                 let (parameters, _) = store.parameters(found);
                 let before = parameters.iter().position(|ty| store.head(*ty) == Some(Head::Hit)).unwrap_or(1);
                 let what = counted(before.max(1), "argument");
-                error.with_help(format!("it takes {} first: give it {what} here, so that only the hit is left", first.words()))
+                error.with_help(format!(
+                    "it takes {} first: give it {what} here, so that only the hit is left",
+                    first.words()
+                ))
             }
             _ => {
                 let count = |ty| store.parameters(ty).0.len();
@@ -276,7 +328,9 @@ impl<'p> Infer<'p> {
     /// The name of a parameter of a function, where it is known.
     pub(super) fn parameter_name(&self, callee: &Expr, index: usize) -> Option<String> {
         let ExprKind::Name(_) = callee.kind else { return None };
-        let Some(Meaning::Global(Global::Definition { module, index: definition })) = self.names.uses.get(&callee.span.start) else {
+        let Some(Meaning::Global(Global::Definition { module, index: definition })) =
+            self.names.uses.get(&callee.span.start)
+        else {
             return None;
         };
         let definition = self.modules.get(*module)?.syntax.definitions.get(*definition)?;
@@ -307,9 +361,15 @@ pub(super) fn constructors_of(head: Head) -> Vec<&'static Constructor> {
 }
 
 /// The first field of a constructor that takes such a value.
-pub(super) fn field_for(constructor: &'static Constructor, head: Head, used: &[&str]) -> Option<&'static str> {
+pub(super) fn field_for(
+    constructor: &'static Constructor,
+    head: Head,
+    used: &[&str],
+) -> Option<&'static str> {
     let takes = |kind: FieldType| match head {
-        Head::Number => matches!(kind, FieldType::Number) || (constructor.name == "ambient" && kind == FieldType::Color),
+        Head::Number => {
+            matches!(kind, FieldType::Number) || (constructor.name == "ambient" && kind == FieldType::Color)
+        }
         Head::Vec2 => kind == FieldType::Vec2,
         Head::Vec3 => kind == FieldType::Vec3,
         Head::Color => kind == FieldType::Color,
@@ -317,5 +377,9 @@ pub(super) fn field_for(constructor: &'static Constructor, head: Head, used: &[&
         _ => false,
     };
     // Directions and places: `center` rather than `normal` where both could be.
-    constructor.fields.iter().find(|field| takes(field.kind) && !used.contains(&field.name)).map(|field| field.name)
+    constructor
+        .fields
+        .iter()
+        .find(|field| takes(field.kind) && !used.contains(&field.name))
+        .map(|field| field.name)
 }
