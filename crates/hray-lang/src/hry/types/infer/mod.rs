@@ -18,9 +18,9 @@ pub(super) use group::counted;
 pub(super) use operators::written as written_operator;
 pub(super) use solve::{Allowed, Failure, field_of};
 
-pub(super) use super::scheme::Origin;
 use super::kind::Kind;
 use super::names::Names;
+pub(super) use super::scheme::Origin;
 use super::scheme::{Binding, Constraint, Demand, Scheme, Types};
 use super::store::{Clash, Ty};
 use crate::diagnostic::{Diagnostic, Span};
