@@ -6,8 +6,8 @@
 pub mod random;
 
 use hray::{
-    Control, Description, Light, NoiseTables, NoiseTexture, Options, PictureFormat, Rgb, Scene, Shape,
-    Texture,
+    Background, Camera, Control, Description, Field, Light, NoiseTables, NoiseTexture, Options,
+    PictureFormat, Rgb, Scene, Shape, Texture,
 };
 use hray_model as model;
 use sha2::{Digest, Sha256};
@@ -22,50 +22,63 @@ fn color(c: Rgb) -> model::Color {
     (c.r, c.g, c.b)
 }
 
-/// A scene of the engine in the words of the model.
+/// A scene of the engine in the words of the model; none where the model has no words for it.
 #[must_use]
-pub fn to_model(scene: &Scene) -> model::Scene {
+pub fn to_model(scene: &Scene) -> Option<model::Scene> {
     let object = |shape: &Shape| match shape {
-        Shape::Sphere(s) => model::Object::Sphere(model::mk_sphere(point(s.center), s.radius)),
+        Shape::Sphere(s) => Some(model::Object::Sphere(model::mk_sphere(point(s.center), s.radius))),
         Shape::Plane(p) => {
-            model::Object::Plane(model::mk_plane((p.normal.x, p.normal.y, p.normal.z, p.offset)))
+            let plane = model::mk_plane((p.normal.x, p.normal.y, p.normal.z, p.offset));
+            Some(model::Object::Plane(plane))
         }
+        Shape::Cuboid(_) | Shape::Csg(_) => None,
     };
     let objects = scene.primitives.iter().map(|primitive| {
         let material = &primitive.material;
+        let plain = primitive.transform.is_none() && material.highlight.is_none() && material.glow.is_none();
         let texture = model::Texture {
-            diff: diff(&material.texture),
-            refl_coef: material.reflection,
-            spec_coef: material.shine,
-            refr_coef: material.transmission,
-            refr_index: material.refractive_index,
+            diff: diff(&material.texture).filter(|_| plain && material.bump.is_none())?,
+            refl_coef: material.reflection.constant()?,
+            spec_coef: whole(&material.shine)?,
+            refr_coef: material.transmission.constant()?,
+            refr_index: material.refractive_index.constant()?,
         };
-        (object(&primitive.shape), texture)
+        Some((object(&primitive.shape)?, texture))
     });
     let light = |light: &Light| match *light {
         Light::Point { position, intensity } => {
-            model::Light::PointLight(model::PointLight { pos: point(position), int: color(intensity) })
+            let light = model::PointLight { pos: point(position), int: color(intensity) };
+            Some(model::Light::PointLight(light))
         }
         Light::Ambient { intensity } => {
-            model::Light::AmbientLight(model::AmbientLight { int: color(intensity) })
+            Some(model::Light::AmbientLight(model::AmbientLight { int: color(intensity) }))
         }
+        Light::Directional { .. } | Light::Spot { .. } => None,
     };
-    let [width, height] = scene.camera.window;
-    model::Scene {
-        camera: model::mk_camera(point(scene.camera.eye), (width, height)),
-        background: color(scene.background),
-        objects: objects.collect(),
-        lights: scene.lights.iter().map(light).collect(),
-    }
+    let (Camera::Window(camera), Background::Uniform(background)) = (scene.camera, &scene.background) else {
+        return None;
+    };
+    let [width, height] = [whole(&camera.window[0].into())?, whole(&camera.window[1].into())?];
+    Some(model::Scene {
+        camera: model::mk_camera(point(camera.eye), (width, height)),
+        background: color(*background),
+        objects: objects.collect::<Option<_>>()?,
+        lights: scene.lights.iter().map(light).collect::<Option<_>>()?,
+    })
 }
 
-fn diff(texture: &Texture) -> model::Diff {
+fn whole(field: &Field) -> Option<i64> {
+    field.constant().filter(|number| number.fract() == 0.0).map(|number| number as i64)
+}
+
+fn diff(texture: &Texture) -> Option<model::Diff> {
     use model::NoiseF;
     let noise = match *texture {
-        Texture::Solid(c) => return model::Diff::Solid(color(c)),
+        Texture::Solid(c) => return Some(model::Diff::Solid(color(c))),
         Texture::Noise(noise) => noise,
+        Texture::Function(_) => return None,
     };
-    model::Diff::Perlin(match noise {
+    Some(model::Diff::Perlin(match noise {
         NoiseTexture::Solid { base, grid } => NoiseF::PerlinSolid { base: color(base), grid_s: grid },
         NoiseTexture::SemiTurbulence { base, octaves, grid } => {
             NoiseF::PerlinSemiTurbulence { base: color(base), freq: octaves.into(), grid_s: grid }
@@ -104,7 +117,7 @@ fn diff(texture: &Texture) -> model::Diff {
             xy_fact: rings,
             pow: power,
         },
-    })
+    }))
 }
 
 /// Noise tables of the engine in the words of the model.
@@ -164,7 +177,7 @@ pub fn p3_hash(scene: &Path, tables: &NoiseTables) -> Result<String, String> {
 /// With the first pixel that differs, or the reason why there is nothing to compare.
 pub fn compare(description: &Description, tables: &NoiseTables, threads: usize) -> Result<(), String> {
     let (width, height) = (description.resolution.width(), description.resolution.height());
-    let scene = to_model(&description.scene);
+    let scene = to_model(&description.scene).ok_or("the model has no words for this scene")?;
     let model_tables = tables_to_model(tables);
     let size = (i64::from(width), i64::from(height));
     let expected = model::get_image(i64::from(description.max_depth), size, &scene, &model_tables)

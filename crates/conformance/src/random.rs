@@ -3,9 +3,11 @@
 //! normal, grids of size zero, numbers at which arithmetic overflows.
 
 use hray::{
-    DVec3, Description, Light, Material, NoiseTexture, Plane, Primitive, Resolution, Rgb, Scene, Shape,
-    Sphere, Texture, WindowCamera,
+    Background, Camera, DVec3, Description, Encoding, Integrator, Light, Material, NoiseTexture, Plane,
+    Primitive, Resolution, Rgb, Scene, Shape, Sphere, Texture, WindowCamera,
 };
+use std::num::NonZeroU32;
+use std::sync::Arc;
 
 /// A stream of numbers from a seed: `SplitMix64`.
 struct Numbers(u64);
@@ -64,19 +66,28 @@ pub fn description(seed: u64) -> Option<Description> {
     for _ in 0..n.below(9) {
         let shape = match primitives.last() {
             // Two surfaces in the same place: the last one wins.
-            Some(previous) if n.once_in(8) => previous.shape,
+            Some(previous) if n.once_in(8) => previous.shape.clone(),
             _ => shape(n, scale),
         };
-        primitives.push(Primitive { shape, material: material(n, scale) });
+        let material = Arc::new(material(n, scale));
+        primitives.push(Primitive { shape, transform: None, material });
     }
     let lights = (0..n.below(5)).map(|_| light(n, &primitives, scale)).collect();
     let eye =
         if n.once_in(4) { n.point(150.0) } else { DVec3::new(0.0, 0.0, n.of(&[150.0, -150.0, 40.0, 0.0])) };
-    let window = [n.of(&[100, 100, 80, 1, -60, 0]), n.of(&[75, 75, 60, 1, -60, 0])];
+    let window = [n.of(&[100.0, 100.0, 80.0, 1.0, -60.0, 0.0]), n.of(&[75.0, 75.0, 60.0, 1.0, -60.0, 0.0])];
     let max_depth = n.of(&[-1, 0, 1, 2, 3, 4, 6]);
-    let camera = WindowCamera { eye: eye * scale, window };
-    let scene = Scene { camera, background: n.color(), primitives, lights };
-    Resolution::new(width, height).ok().map(|resolution| Description { resolution, max_depth, scene })
+    let camera = Camera::Window(WindowCamera { eye: eye * scale, window });
+    let background = Background::Uniform(n.color());
+    let scene = Scene { camera, background, primitives, lights, time: 0.0 };
+    Resolution::new(width, height).ok().map(|resolution| Description {
+        resolution,
+        max_depth,
+        samples: NonZeroU32::MIN,
+        integrator: Integrator::Classic2005,
+        encoding: Encoding::Raw,
+        scene,
+    })
 }
 
 fn shape(n: &mut Numbers, scale: f64) -> Shape {
@@ -102,12 +113,13 @@ fn shape(n: &mut Numbers, scale: f64) -> Shape {
 }
 
 fn material(n: &mut Numbers, scale: f64) -> Material {
+    let texture = if n.once_in(3) { Texture::Solid(n.color()) } else { Texture::Noise(noise(n, scale)) };
     Material {
-        texture: if n.once_in(3) { Texture::Solid(n.color()) } else { Texture::Noise(noise(n, scale)) },
-        reflection: n.of(&[0.0, 0.0, 0.3, 0.7, 1.0, -0.4, 1.5]),
-        shine: n.of(&[0, 1, 2, 3, 20, 60, 200, 1001, -3, 3_000_000_000, i64::MAX]),
-        transmission: n.of(&[0.0, 0.0, 0.0, 0.4, 0.9, 1.0, -0.5]),
-        refractive_index: n.of(&[0.0, 0.6, 1.0, 1.12, 1.5, 2.4, -1.3]),
+        reflection: n.of(&[0.0, 0.0, 0.3, 0.7, 1.0, -0.4, 1.5]).into(),
+        shine: (n.of(&[0, 1, 2, 3, 20, 60, 200, 1001, -3, 3_000_000_000, i64::MAX]) as f64).into(),
+        transmission: n.of(&[0.0, 0.0, 0.0, 0.4, 0.9, 1.0, -0.5]).into(),
+        refractive_index: n.of(&[0.0, 0.6, 1.0, 1.12, 1.5, 2.4, -1.3]).into(),
+        ..Material::matte(texture)
     }
 }
 
@@ -138,7 +150,7 @@ fn light(n: &mut Numbers, primitives: &[Primitive], scale: f64) -> Light {
     if n.once_in(4) {
         return Light::Ambient { intensity };
     }
-    let position = match primitives.first().map(|primitive| primitive.shape) {
+    let position = match primitives.first().map(|primitive| &primitive.shape) {
         // In the very centre of a sphere, or on its surface.
         Some(Shape::Sphere(sphere)) if n.once_in(6) => {
             sphere.center + DVec3::new(0.0, n.of(&[0.0, 1.0]) * sphere.radius, 0.0)

@@ -2,6 +2,7 @@
 
 use conformance::{engine_colors, random};
 use hray::{Light, LintLevels, NoiseTables, Plane, Primitive, SceneFile, Shape, Sphere};
+use std::sync::Arc;
 
 /// Warnings that say of an object that it cannot be seen.
 const UNSEEN: [&str; 4] = ["duplicate-object", "object-behind-plane", "object-inside-object", "plane-normal"];
@@ -24,7 +25,7 @@ fn objects_reported_as_invisible_can_be_removed() {
             // Lights far away, so that what is behind something is dark as well.
             description.scene.lights.retain(|light| matches!(light, Light::Ambient { .. }));
         }
-        let text = hray::write_classic(&description);
+        let text = hray::write_classic(&description).unwrap();
         let file = SceneFile::parse("random.hry", text.clone().into_bytes(), &LintLevels::default());
         let places = objects(&text);
         assert_eq!(places.len(), description.scene.primitives.len());
@@ -50,13 +51,13 @@ fn objects_reported_as_invisible_can_be_removed() {
 fn provoke(seed: u64, primitives: &mut [Primitive]) {
     let Some((last, rest)) = primitives.split_last_mut() else { return };
     let Some(first) = rest.first_mut() else { return };
-    match (seed % 3, last.shape) {
+    match (seed % 3, last.shape.clone()) {
         (0, Shape::Sphere(outer)) => {
-            last.material.transmission = 0.0;
+            Arc::make_mut(&mut last.material).transmission = 0.0.into();
             first.shape = Shape::Sphere(Sphere { radius: outer.radius / 2.0, center: outer.center });
         }
         (1, _) => {
-            last.material.transmission = 0.0;
+            Arc::make_mut(&mut last.material).transmission = 0.0.into();
             last.shape = Shape::Plane(Plane { normal: hray::DVec3::new(0.1, 0.2, 1.0), offset: 130.0 });
             let center = hray::DVec3::new(10.0, -5.0, -400.0 - seed as f64);
             first.shape = Shape::Sphere(Sphere { radius: 40.0, center });

@@ -4,7 +4,7 @@ use crate::args::InfoArgs;
 use crate::console::Console;
 use crate::failure::Failure;
 use crate::summary::{counted, grouped};
-use hray::{Error, Input, LintLevels, SceneFile, Summary, WorstCase};
+use hray::{CameraSummary, Error, Input, LintLevels, Objects, SceneFile, Summary, WorstCase};
 use std::fmt::Write;
 
 /// Shows what is in a scene.
@@ -39,28 +39,21 @@ fn json(name: &str, summary: &Summary, warnings: usize) -> Result<String, Failur
 }
 
 fn write_text(out: &mut String, summary: &Summary, warnings: usize) -> std::fmt::Result {
-    let Summary { width, height, max_depth, camera, background, objects, materials, .. } = summary;
-    let [eye, background] = [camera.eye, *background].map(triple);
-    let [window_width, window_height] = camera.window;
-    let lights = summary.point_lights + summary.ambient_lights;
+    let Summary { width, height, max_depth, samples, background, materials, .. } = summary;
+    let background = background.map_or_else(|| "a function of the direction".to_owned(), triple);
+    let lights = light_kinds(summary);
+    let all_lights: usize = lights.iter().map(|(_, count)| count).sum();
     writeln!(out, "resolution   {width} x {height} ({} pixels)", grouped(summary.pixels()))?;
     writeln!(out, "depth        {max_depth}")?;
-    writeln!(out, "camera       eye {eye}, window {window_width} x {window_height}")?;
+    if *samples != 1 {
+        writeln!(out, "samples      {samples} a pixel")?;
+    }
+    writeln!(out, "camera       {}", camera(&summary.camera))?;
     writeln!(out, "background   {background}")?;
-    writeln!(
-        out,
-        "objects      {} ({}, {})",
-        grouped(objects.total as u64),
-        counted(objects.spheres, "sphere"),
-        counted(objects.planes, "plane")
-    )?;
-    writeln!(
-        out,
-        "lights       {} ({} point, {} ambient)",
-        grouped(lights as u64),
-        summary.point_lights,
-        summary.ambient_lights
-    )?;
+    let total = grouped(summary.objects.total as u64);
+    writeln!(out, "objects      {total} ({})", objects(&summary.objects))?;
+    let kinds: Vec<String> = lights.iter().map(|(kind, count)| format!("{count} {kind}")).collect();
+    writeln!(out, "lights       {} ({})", grouped(all_lights as u64), kinds.join(", "))?;
     writeln!(out, "materials    {} reflective, {} transparent", materials.reflective, materials.transparent)?;
     let textures: Vec<String> =
         materials.textures.iter().map(|(name, count)| format!("{count} {name}")).collect();
@@ -69,6 +62,9 @@ fn write_text(out: &mut String, summary: &Summary, warnings: usize) -> std::fmt:
         "textures     {}",
         if textures.is_empty() { "none".to_owned() } else { textures.join(", ") }
     )?;
+    if summary.functions > 0 {
+        writeln!(out, "functions    {}", grouped(summary.functions as u64))?;
+    }
     if let Some(bounds) = summary.sphere_bounds {
         writeln!(out, "spheres in   {} to {}", triple(bounds.min), triple(bounds.max))?;
     }
@@ -76,6 +72,42 @@ fn write_text(out: &mut String, summary: &Summary, warnings: usize) -> std::fmt:
     match warnings {
         0 => writeln!(out, "warnings     none"),
         n => writeln!(out, "warnings     {n} (`hray check` shows them)"),
+    }
+}
+
+/// The kinds of light, of which the last two are named only where they occur.
+fn light_kinds(summary: &Summary) -> Vec<(&'static str, usize)> {
+    let mut kinds = vec![("point", summary.point_lights), ("ambient", summary.ambient_lights)];
+    let others = [("directional", summary.directional_lights), ("spot", summary.spot_lights)];
+    kinds.extend(others.into_iter().filter(|(_, count)| *count > 0));
+    kinds
+}
+
+fn objects(objects: &Objects) -> String {
+    let mut kinds = vec![counted(objects.spheres, "sphere"), counted(objects.planes, "plane")];
+    match objects.boxes {
+        0 => {}
+        1 => kinds.push("1 box".to_owned()),
+        n => kinds.push(format!("{} boxes", grouped(n as u64))),
+    }
+    if objects.csg > 0 {
+        kinds.push(format!("{} csg", grouped(objects.csg as u64)));
+    }
+    kinds.join(", ")
+}
+
+fn camera(camera: &CameraSummary) -> String {
+    match *camera {
+        CameraSummary::Window { eye, window: [width, height] } => {
+            format!("eye {}, window {width} x {height}", triple(eye))
+        }
+        CameraSummary::Perspective { from, to, fov } => {
+            let degrees = fov.to_degrees();
+            format!("perspective, from {} to {}, field of view {degrees:.4}°", triple(from), triple(to))
+        }
+        CameraSummary::Orthographic { from, to, height } => {
+            format!("orthographic, from {} to {}, height {height}", triple(from), triple(to))
+        }
     }
 }
 

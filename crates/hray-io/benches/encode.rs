@@ -7,7 +7,7 @@
 )]
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
-use hray_core::Rgb;
+use hray_core::{Encoding, Rgb};
 use hray_io::{PictureFormat, PictureWriter};
 use std::hint::black_box;
 use std::path::Path;
@@ -40,7 +40,7 @@ fn encode(criterion: &mut Criterion) {
         group.bench_function(format.name(), |bencher| {
             bencher.iter(|| {
                 for run in black_box(&pixels).chunks(4096) {
-                    black_box(format.encode(run));
+                    black_box(format.encode(run, Encoding::Raw));
                 }
             });
         });
@@ -58,7 +58,7 @@ fn write(criterion: &mut Criterion) {
                 let mut writer =
                     PictureWriter::to_writer(std::io::sink(), Path::new("-"), format, WIDTH, HEIGHT).unwrap();
                 for run in pixels.chunks(4096) {
-                    writer.write(&format.encode(run)).unwrap();
+                    writer.write(&format.encode(run, Encoding::Raw)).unwrap();
                 }
                 writer.finish().unwrap();
             });

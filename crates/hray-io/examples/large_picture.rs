@@ -4,7 +4,7 @@
 //! cargo run --release -p hray-io --example large_picture -- OUTPUT.png [SIDE]
 //! ```
 
-use hray_core::Rgb;
+use hray_core::{Encoding, Rgb};
 use hray_io::{Destination, PictureFormat, PictureWriter};
 use std::error::Error;
 use std::io::Write;
@@ -31,7 +31,7 @@ fn main() -> Result<(), Box<dyn Error>> {
             Rgb::new(u, v, if (x / 64 + y / 64) % 2 == 0 { u * v } else { 0.5 })
         }));
         for run in row.chunks(4096) {
-            writer.write(&format.encode(run))?;
+            writer.write(&format.encode(run, Encoding::Raw))?;
         }
     }
     writer.finish()?;

@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used, clippy::expect_used, reason = "a test may fail loudly")]
 
-use hray_core::Rgb;
+use hray_core::{Encoding, Rgb};
 use hray_io::{Destination, Input, OutputError, PictureFormat, PictureWriter, read_source, same_file};
 use std::fs;
 use std::path::Path;
@@ -13,13 +13,13 @@ const PICTURE: &[u8] = b"P6\n2 1\n255\n\xff\xff\xff\0\0\0";
 
 fn begun(path: &Path) -> Result<PictureWriter, OutputError> {
     let mut writer = PictureWriter::create(&Destination::file(path)?, FORMAT, 2, 1)?;
-    writer.write(&FORMAT.encode(&[Rgb::new(1.0, 1.0, 1.0)]))?;
+    writer.write(&FORMAT.encode(&[Rgb::new(1.0, 1.0, 1.0)], Encoding::Raw))?;
     Ok(writer)
 }
 
 fn write(path: &Path) -> Result<(), OutputError> {
     let mut writer = begun(path)?;
-    writer.write(&FORMAT.encode(&[Rgb::BLACK]))?;
+    writer.write(&FORMAT.encode(&[Rgb::BLACK], Encoding::Raw))?;
     writer.finish()
 }
 
@@ -38,7 +38,7 @@ fn a_file_is_there_only_when_it_is_finished() {
     let path = directory.path().join("a.ppm");
     let mut writer = begun(&path).unwrap();
     assert!(!path.exists());
-    writer.write(&FORMAT.encode(&[Rgb::BLACK])).unwrap();
+    writer.write(&FORMAT.encode(&[Rgb::BLACK], Encoding::Raw)).unwrap();
     writer.finish().unwrap();
     assert_eq!(fs::read(&path).unwrap(), PICTURE);
     assert_eq!(names(&directory), ["a.ppm"]);

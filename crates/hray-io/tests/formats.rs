@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used, clippy::expect_used, reason = "a test may fail loudly")]
 
-use hray_core::Rgb;
+use hray_core::{Encoding, Rgb};
 use hray_io::{Destination, OutputError, PictureFormat, PictureWriter};
 use image::ImageReader;
 use std::io::{self, Cursor, Write};
@@ -39,7 +39,7 @@ fn written(format: PictureFormat, width: u32, height: u32, pixels: &[Rgb], run: 
     let memory = Memory::default();
     let mut writer = PictureWriter::to_writer(memory.clone(), Path::new("-"), format, width, height).unwrap();
     for pixels in pixels.chunks(run) {
-        writer.write(&format.encode(pixels)).unwrap();
+        writer.write(&format.encode(pixels, Encoding::Raw)).unwrap();
     }
     writer.finish().unwrap();
     let bytes = memory.0.lock().unwrap();
@@ -141,10 +141,13 @@ fn too_few_and_too_many_pixels_are_errors() {
     let format = PictureFormat::Png;
     let make = || PictureWriter::to_writer(io::sink(), Path::new("-"), format, 4, 4).unwrap();
     let mut short = make();
-    short.write(&format.encode(&[Rgb::BLACK; 15])).unwrap();
+    short.write(&format.encode(&[Rgb::BLACK; 15], Encoding::Raw)).unwrap();
     assert!(matches!(short.finish(), Err(OutputError::Length { expected: 48, given: 45 })));
     let mut long = make();
-    assert!(matches!(long.write(&format.encode(&[Rgb::BLACK; 17])), Err(OutputError::Length { .. })));
+    assert!(matches!(
+        long.write(&format.encode(&[Rgb::BLACK; 17], Encoding::Raw)),
+        Err(OutputError::Length { .. })
+    ));
 }
 
 #[test]
@@ -179,7 +182,7 @@ fn a_full_disk_is_noticed_at_whatever_byte() {
         for room in (0..length).step_by(7).chain([length - 1]) {
             let result = PictureWriter::to_writer(Full(room), Path::new("full"), format, 16, 4).and_then(
                 |mut writer| {
-                    writer.write(&format.encode(&pixels))?;
+                    writer.write(&format.encode(&pixels, Encoding::Raw))?;
                     writer.finish()
                 },
             );
@@ -202,10 +205,39 @@ fn a_device_takes_what_a_file_takes() {
         let pixels = picture(side, side);
         let destination = Destination::file(&path).unwrap();
         let mut writer = PictureWriter::create(&destination, format, side, side).unwrap();
-        writer.write(&format.encode(&pixels)).unwrap();
+        writer.write(&format.encode(&pixels, Encoding::Raw)).unwrap();
         writer.finish().unwrap();
         let file = std::fs::read(&path).unwrap();
         assert!(side < 1000 || file.len() > 1 << 24, "{} bytes are kept in memory", file.len());
         assert!(file == written(format, side, side, &pixels, 4096), "{format}, {side}");
+    }
+}
+
+/// What a decoder finds in a file of linear light 0.5: 188 of 255, 0.735 of 65535, and 0.5 itself.
+#[test]
+fn srgb_is_encoded_in_every_format_but_open_exr() {
+    let pixels = [Rgb::new(0.5, 0.5, 0.5); 16 * 16];
+    for format in PictureFormat::ALL {
+        let memory = Memory::default();
+        let mut writer = PictureWriter::to_writer(memory.clone(), Path::new("-"), format, 16, 16).unwrap();
+        writer.write(&format.encode(&pixels, Encoding::Srgb)).unwrap();
+        writer.finish().unwrap();
+        let bytes = memory.0.lock().unwrap().clone();
+        match format {
+            PictureFormat::PpmAscii => assert!(bytes.ends_with(b" 188 188 ")),
+            PictureFormat::Exr => {
+                assert!(decoded(&bytes, format).to_rgb32f().into_raw().iter().all(|c| *c == 0.5));
+            }
+            PictureFormat::Farbfeld => {
+                let words = decoded(&bytes, format).to_rgba16().into_raw();
+                assert_eq!(words[0], (65535.0 * 0.735_356_983_052_449_9f64).round() as u16);
+            }
+            _ => {
+                assert!(
+                    decoded(&bytes, format).to_rgb8().into_raw().iter().all(|c| c.abs_diff(188) <= 1),
+                    "{format}"
+                );
+            }
+        }
     }
 }

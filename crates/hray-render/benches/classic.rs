@@ -4,29 +4,33 @@
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use hray_core::{
-    DVec3, Light, Material, NoiseTables, NoiseTexture, Plane, Primitive, Resolution, Rgb, Scene, Shape,
-    Sphere, Texture, WindowCamera,
+    Background, Camera, DVec3, Description, Encoding, Integrator, Light, Material, NoiseTables, NoiseTexture,
+    Plane, Primitive, Resolution, Rgb, Scene, Shape, Sphere, Texture, WindowCamera,
 };
-use hray_render::{Control, Region, Settings, render};
+use hray_render::{Control, Settings, render};
 use std::hint::black_box;
 use std::num::{NonZeroU32, NonZeroUsize};
+use std::sync::Arc;
 
 const SIDE: u32 = 256;
 
-fn scene(shapes: Vec<Shape>, material: &Material) -> Scene {
+fn scene(shapes: Vec<Shape>, material: &Arc<Material>) -> Scene {
+    let camera = WindowCamera { eye: DVec3::new(0.0, 0.0, 150.0), window: [100.0, 100.0] };
+    let primitive = |shape| Primitive { shape, transform: None, material: material.clone() };
     Scene {
-        camera: WindowCamera { eye: DVec3::new(0.0, 0.0, 150.0), window: [100, 100] },
-        background: Rgb::new(0.2, 0.3, 0.4),
-        primitives: shapes.into_iter().map(|shape| Primitive { shape, material: material.clone() }).collect(),
+        camera: Camera::Window(camera),
+        background: Background::Uniform(Rgb::new(0.2, 0.3, 0.4)),
+        primitives: shapes.into_iter().map(primitive).collect(),
         lights: vec![Light::Point {
             position: DVec3::new(100.0, 200.0, 100.0),
             intensity: Rgb::new(0.8, 0.8, 0.8),
         }],
+        time: 0.0,
     }
 }
 
-fn material(texture: Texture, reflection: f64) -> Material {
-    Material { texture, reflection, shine: 60, transmission: 0.0, refractive_index: 0.0 }
+fn material(texture: Texture, reflection: f64) -> Arc<Material> {
+    Arc::new(Material { reflection: reflection.into(), shine: 60.0.into(), ..Material::matte(texture) })
 }
 
 fn wall() -> Shape {
@@ -35,20 +39,22 @@ fn wall() -> Shape {
 
 fn bench(c: &mut Criterion, name: &str, scene: &Scene, depth: i32) {
     let Ok(resolution) = Resolution::new(SIDE.into(), SIDE.into()) else { return };
-    let settings = Settings {
+    let description = Description {
         resolution,
-        region: Region::whole(resolution),
         max_depth: depth,
         samples: NonZeroU32::MIN,
-        threads: Some(NonZeroUsize::MIN),
+        integrator: Integrator::Classic2005,
+        encoding: Encoding::Raw,
+        scene: scene.clone(),
     };
+    let settings = Settings { threads: Some(NonZeroUsize::MIN), ..Settings::of(&description) };
     let tables = NoiseTables::default();
     let mut group = c.benchmark_group("classic");
     group.throughput(Throughput::Elements(resolution.pixels()));
     group.bench_function(name, |b| {
         b.iter(|| {
             render(
-                scene,
+                &description,
                 &tables,
                 &settings,
                 &Control::new(),

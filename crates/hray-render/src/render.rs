@@ -3,7 +3,7 @@
 use crate::classic::{Integrator, Scratch, Stopped};
 use crate::sampler::PixelSamples;
 use crate::{Control, RayCounts, Settings, Statistics};
-use hray_core::{NoiseTables, Rgb, Scene};
+use hray_core::{Description, NoiseTables, Rgb};
 use std::collections::BTreeMap;
 use std::fmt;
 use std::num::{NonZeroU32, NonZeroUsize};
@@ -43,7 +43,7 @@ impl<E: fmt::Display> fmt::Display for RenderError<E> {
 
 impl<E: std::error::Error + 'static> std::error::Error for RenderError<E> {}
 
-/// Renders `settings.region` of a scene.
+/// Renders `settings.region` of what a description shows. Its size, depth and samples are those of `settings`.
 ///
 /// The pixels of the region, row by row from the top and each row from the left, are cut into runs of a few
 /// thousand. `encode` turns a run into whatever the caller wants to keep of it, on the thread that rendered
@@ -55,7 +55,7 @@ impl<E: std::error::Error + 'static> std::error::Error for RenderError<E> {}
 /// # Errors
 /// [`RenderError::Cancelled`] after [`Control::cancel`]; [`RenderError::Sink`] with the error of `consume`.
 pub fn render<T, E>(
-    scene: &Scene,
+    description: &Description,
     tables: &NoiseTables,
     settings: &Settings,
     control: &Control,
@@ -67,7 +67,7 @@ where
 {
     let threads = settings.threads.or_else(|| std::thread::available_parallelism().ok());
     let threads = threads.map_or(1, NonZeroUsize::get).min(Integrator::most_threads(settings.max_depth));
-    let job = Job::new(scene, tables, settings, control, threads as u64);
+    let job = Job::new(description, tables, settings, control, threads as u64);
     let threads = threads.min(usize::try_from(job.runs).unwrap_or(usize::MAX));
     let rays = if threads == 1 {
         job.render_here(encode, consume)?
@@ -88,7 +88,7 @@ struct Job<'a> {
 
 impl<'a> Job<'a> {
     fn new(
-        scene: &Scene,
+        description: &Description,
         tables: &NoiseTables,
         settings: &'a Settings,
         control: &'a Control,
@@ -98,7 +98,7 @@ impl<'a> Job<'a> {
         let fair = settings.region.pixels() / threads.saturating_mul(RUNS_PER_THREAD);
         let pixels_per_run = fair.clamp(SMALLEST_RUN, RUN).min(RUN / samples).max(1);
         Self {
-            integrator: Integrator::new(scene, tables),
+            integrator: Integrator::new(description, tables),
             settings,
             control,
             pixels_per_run,
@@ -324,17 +324,19 @@ impl Drop for StopWhenDropped<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use hray_core::{DVec3, Light, Material, Primitive, Resolution, Shape, Sphere, Texture, WindowCamera};
+    use hray_core::{
+        Background, Camera, DVec3, Encoding, Light, Material, Primitive, Resolution, Scene, Shape, Sphere,
+        Texture, WindowCamera,
+    };
+    use std::sync::Arc;
     use std::time::{Duration, Instant};
 
-    fn spheres(count: usize, lights: usize) -> Scene {
-        let material = Material {
-            texture: Texture::Solid(Rgb::new(0.5, 0.5, 0.5)),
-            reflection: 0.5,
-            shine: 20,
-            transmission: 0.0,
-            refractive_index: 0.0,
-        };
+    fn spheres(count: usize, lights: usize) -> Description {
+        let material = Arc::new(Material {
+            reflection: 0.5.into(),
+            shine: 20.0.into(),
+            ..Material::matte(Texture::Solid(Rgb::new(0.5, 0.5, 0.5)))
+        });
         let shape = |i: usize| {
             let center = DVec3::new((i % 300) as f64 - 150.0, (i / 300) as f64 - 150.0, -300.0);
             Shape::Sphere(Sphere { radius: 2.0, center })
@@ -343,13 +345,21 @@ mod tests {
             position: DVec3::new(i as f64, 500.0, 100.0),
             intensity: Rgb::new(0.1, 0.1, 0.1),
         };
-        Scene {
-            camera: WindowCamera { eye: DVec3::new(0.0, 0.0, 150.0), window: [100, 100] },
-            background: Rgb::BLACK,
-            primitives: (0..count)
-                .map(|i| Primitive { shape: shape(i), material: material.clone() })
-                .collect(),
-            lights: (0..lights).map(light).collect(),
+        let camera = WindowCamera { eye: DVec3::new(0.0, 0.0, 150.0), window: [100.0, 100.0] };
+        let primitive = |i| Primitive { shape: shape(i), transform: None, material: material.clone() };
+        Description {
+            resolution: Resolution::new(64, 64).unwrap(),
+            max_depth: 3,
+            samples: NonZeroU32::MIN,
+            integrator: hray_core::Integrator::Classic2005,
+            encoding: Encoding::Raw,
+            scene: Scene {
+                camera: Camera::Window(camera),
+                background: Background::Uniform(Rgb::BLACK),
+                primitives: (0..count).map(primitive).collect(),
+                lights: (0..lights).map(light).collect(),
+                time: 0.0,
+            },
         }
     }
 

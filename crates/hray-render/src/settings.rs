@@ -102,23 +102,24 @@ pub struct Settings {
     pub region: Region,
     /// How many times a ray may be reflected or refracted, -1 (a black picture) to 10000.
     pub max_depth: i32,
-    /// Samples a pixel, at most [`MAX_SAMPLES`]. With 1 the single sample is the thesis' own, at the pixel's
-    /// lower left corner. With more, they follow an Owen-scrambled (0, 2)-sequence through a tent filter of
-    /// radius one pixel centred on that same point, each sample with equal weight.
+    /// Samples a pixel, at most [`MAX_SAMPLES`]. With 1 the single sample is the pixel's own point: its centre, or,
+    /// with the classic camera, the thesis' lower left corner. With more, they follow an Owen-scrambled
+    /// (0, 2)-sequence through a tent filter of radius one pixel centred on that same point, each sample with
+    /// equal weight.
     pub samples: NonZeroU32,
     /// Threads to use, or as many as the machine runs at once.
     pub threads: Option<NonZeroUsize>,
 }
 
 impl Settings {
-    /// What the scene file itself asks for: all of its picture, one sample a pixel.
+    /// What the scene file itself asks for: all of its picture.
     #[must_use]
     pub const fn of(description: &Description) -> Self {
         Self {
             resolution: description.resolution,
             region: Region::whole(description.resolution),
             max_depth: description.max_depth,
-            samples: NonZeroU32::MIN,
+            samples: description.samples,
             threads: None,
         }
     }

@@ -14,7 +14,7 @@ pub struct Options {
     /// How many times a ray may be reflected or refracted, [`MIN_DEPTH`] to [`MAX_DEPTH`], instead of the
     /// scene's number.
     pub max_depth: Option<i32>,
-    /// Samples a pixel, at most [`MAX_SAMPLES`]; 1 where not given.
+    /// Samples a pixel, at most [`MAX_SAMPLES`], instead of the scene's number.
     pub samples: Option<NonZeroU32>,
     /// The part of the picture to render, as x, y, width and height; y counts from the top. All of it where
     /// not given.
@@ -36,7 +36,7 @@ impl Options {
         if !(MIN_DEPTH..=MAX_DEPTH).contains(&max_depth) {
             return Err(OptionsError::Depth(max_depth));
         }
-        let samples = self.samples.unwrap_or(NonZeroU32::MIN);
+        let samples = self.samples.unwrap_or(description.samples);
         if samples.get() > MAX_SAMPLES {
             return Err(OptionsError::Samples(samples.get()));
         }

@@ -1,6 +1,6 @@
 //! A picture in memory.
 
-use crate::{Destination, OutputError, PictureFormat, Rgb};
+use crate::{Destination, Encoding, OutputError, PictureFormat, Rgb};
 use hray_io::PictureWriter;
 use std::io::{self, Write};
 use std::path::Path;
@@ -11,15 +11,17 @@ use std::sync::{Arc, Mutex, PoisonError};
 pub struct Picture {
     width: u32,
     height: u32,
+    encoding: Encoding,
     pixels: Vec<Rgb>,
 }
 
 impl Picture {
-    /// Of colours, row by row from the top; none where their number is not width times height.
+    /// Of colours, row by row from the top; none where their number is not width times height. `encoding` is what
+    /// becomes of them when the picture is saved.
     #[must_use]
-    pub fn new(width: u32, height: u32, pixels: Vec<Rgb>) -> Option<Self> {
+    pub fn new(width: u32, height: u32, encoding: Encoding, pixels: Vec<Rgb>) -> Option<Self> {
         let fits = u64::from(width) * u64::from(height) == pixels.len() as u64;
-        fits.then_some(Self { width, height, pixels })
+        fits.then_some(Self { width, height, encoding, pixels })
     }
 
     /// Pixels across.
@@ -32,6 +34,12 @@ impl Picture {
     #[must_use]
     pub const fn height(&self) -> u32 {
         self.height
+    }
+
+    /// What becomes of the colours when the picture is saved.
+    #[must_use]
+    pub const fn encoding(&self) -> Encoding {
+        self.encoding
     }
 
     /// All colours, row by row from the top and each row from the left.
@@ -75,7 +83,7 @@ impl Picture {
 
     fn write(&self, mut writer: PictureWriter, format: PictureFormat) -> Result<(), OutputError> {
         for run in self.pixels.chunks(4096) {
-            writer.write(&format.encode(run))?;
+            writer.write(&format.encode(run, self.encoding))?;
         }
         writer.finish()
     }

@@ -80,7 +80,7 @@ pub fn render_to_memory(
     let reserved = usize::try_from(count).ok().and_then(|n| pixels.try_reserve_exact(n).ok());
     reserved.ok_or(Error::Memory { bytes: count * size_of::<crate::Rgb>() as u64 })?;
     let statistics = hray_render::render(
-        &description.scene,
+        description,
         &options.noise_tables,
         &settings,
         control,
@@ -96,7 +96,7 @@ pub fn render_to_memory(
         RenderError::Sink(never) => match never {},
     })?;
     // A finished render has given every pixel of the region.
-    let picture = Picture::new(width, height, pixels).ok_or(Error::Cancelled)?;
+    let picture = Picture::new(width, height, description.encoding, pixels).ok_or(Error::Cancelled)?;
     Ok((picture, statistics))
 }
 
@@ -113,11 +113,11 @@ fn render_into(
     control: &Control,
 ) -> Result<Statistics, Error> {
     let statistics = hray_render::render(
-        &description.scene,
+        description,
         &options.noise_tables,
         settings,
         control,
-        |run| format.encode(run),
+        |run| format.encode(run, description.encoding),
         |bytes| writer.write(&bytes),
     )
     .map_err(|error: RenderError<OutputError>| match error {

@@ -1,8 +1,15 @@
 //! A scene in a few numbers.
 
-use crate::{Description, Light, NoiseTexture, Shape, Texture};
+use crate::{
+    Background, Camera, DMat3, DVec3, Description, Field, Function, Light, Material, NoiseTexture, Primitive,
+    Scene, Shape, Texture,
+};
 use serde::Serialize;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
+
+/// So many parts of solids are looked at; beyond, the summary is of these.
+const MOST_PARTS: usize = 1 << 24;
 
 /// What the window of the program of 2005 showed of a scene (resolution, objects, lights, depth, camera), and
 /// more. It serialises to an object with these names as keys.
@@ -14,19 +21,27 @@ pub struct Summary {
     pub height: u32,
     /// How many times a ray may be reflected or refracted.
     pub max_depth: i32,
+    /// Samples a pixel.
+    pub samples: u32,
     /// Where the picture is taken from.
     pub camera: CameraSummary,
-    /// What a ray sees that hits nothing: red, green, blue.
-    pub background: [f64; 3],
+    /// What a ray sees that hits nothing: red, green, blue; none where that is a function of its direction.
+    pub background: Option<[f64; 3]>,
     /// What can be hit.
     pub objects: Objects,
     /// Lights that shine from a point.
     pub point_lights: usize,
     /// Lights that are everywhere.
     pub ambient_lights: usize,
+    /// Lights that shine from infinitely far away.
+    pub directional_lights: usize,
+    /// Lights that shine into a cone.
+    pub spot_lights: usize,
     /// What the objects are made of.
     pub materials: Materials,
-    /// The box around all spheres; none without spheres. Planes have no bounds.
+    /// Functions that are evaluated for every hit, or for every direction of the background.
+    pub functions: usize,
+    /// The box around all spheres in the scene's list; none without spheres.
     pub sphere_bounds: Option<Bounds>,
     /// What a pixel can cost.
     pub worst_case: WorstCase,
@@ -34,15 +49,53 @@ pub struct Summary {
 
 /// The camera.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct CameraSummary {
-    /// The eye.
-    pub eye: [f64; 3],
-    /// Width and height of the window.
-    pub window: [i64; 2],
+#[serde(tag = "kind", rename_all = "lowercase")]
+pub enum CameraSummary {
+    /// The classic camera.
+    Window {
+        /// The eye.
+        eye: [f64; 3],
+        /// Width and height of the window.
+        window: [f64; 2],
+    },
+    /// Rays from one point.
+    Perspective {
+        /// The eye.
+        from: [f64; 3],
+        /// What is in the middle.
+        to: [f64; 3],
+        /// Angle from the lower to the upper edge, in radians.
+        fov: f64,
+    },
+    /// Parallel rays.
+    Orthographic {
+        /// The middle of the plane that the rays start in.
+        from: [f64; 3],
+        /// What is in the middle.
+        to: [f64; 3],
+        /// What the picture's height shows.
+        height: f64,
+    },
+}
+
+impl CameraSummary {
+    fn of(camera: &Camera) -> Self {
+        match camera {
+            Camera::Window(camera) => Self::Window { eye: camera.eye.to_array(), window: camera.window },
+            Camera::Perspective(camera) => {
+                Self::Perspective { from: camera.from.to_array(), to: camera.to.to_array(), fov: camera.fov }
+            }
+            Camera::Orthographic(camera) => Self::Orthographic {
+                from: camera.from.to_array(),
+                to: camera.to.to_array(),
+                height: camera.height,
+            },
+        }
+    }
 }
 
 /// Objects by shape.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Objects {
     /// All of them.
     pub total: usize,
@@ -50,17 +103,36 @@ pub struct Objects {
     pub spheres: usize,
     /// Planes.
     pub planes: usize,
+    /// Boxes.
+    pub boxes: usize,
+    /// Solids made of others by constructive solid geometry.
+    pub csg: usize,
 }
 
-/// Objects by material.
+impl Objects {
+    fn of(primitives: &[Primitive]) -> Self {
+        let mut objects = Self { total: primitives.len(), ..Self::default() };
+        for primitive in primitives {
+            *match primitive.shape {
+                Shape::Sphere(_) => &mut objects.spheres,
+                Shape::Plane(_) => &mut objects.planes,
+                Shape::Cuboid(_) => &mut objects.boxes,
+                Shape::Csg(_) => &mut objects.csg,
+            } += 1;
+        }
+        objects
+    }
+}
+
+/// Objects, and parts of solids, by material.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Materials {
-    /// How many objects have each kind of texture, under the grammar's names; kinds that do not occur are
-    /// left out.
+    /// How many have each kind of texture, under the classic grammar's names; kinds that do not occur are left
+    /// out.
     pub textures: BTreeMap<&'static str, usize>,
-    /// Objects that mirror.
+    /// How many mirror.
     pub reflective: usize,
-    /// Objects that let light through.
+    /// How many let light through.
     pub transparent: usize,
 }
 
@@ -86,40 +158,44 @@ impl Summary {
     /// The summary of a description.
     #[must_use]
     pub fn of(description: &Description) -> Self {
-        let Description { resolution, max_depth, scene } = description;
-        let spheres = scene.primitives.iter().filter(|p| matches!(p.shape, Shape::Sphere(_))).count();
-        let total = scene.primitives.len();
-        let point_lights = scene.lights.iter().filter(|light| matches!(light, Light::Point { .. })).count();
-        let materials = || scene.primitives.iter().map(|primitive| &primitive.material);
-        let mut textures = BTreeMap::new();
-        for material in materials() {
-            *textures.entry(texture_name(&material.texture)).or_insert(0) += 1;
+        let Description { resolution, max_depth, samples, scene, .. } = description;
+        let lights = |kind: fn(&Light) -> bool| scene.lights.iter().filter(|light| kind(light)).count();
+        let ambient_lights = lights(|light| matches!(light, Light::Ambient { .. }));
+        let objects = Objects::of(&scene.primitives);
+        let mut materials = Materials { textures: BTreeMap::new(), reflective: 0, transparent: 0 };
+        let mut branches = 0;
+        for material in parts(scene) {
+            let [reflects, transmits] =
+                [&material.reflection, &material.transmission].map(|field| usize::from(!field.is_zero()));
+            *materials.textures.entry(texture_name(&material.texture)).or_insert(0) += 1;
+            materials.reflective += reflects;
+            materials.transparent += transmits;
+            branches = branches.max((reflects + transmits) as u32);
         }
-        let branches = materials()
-            .map(|material| u32::from(material.reflection != 0.0) + u32::from(material.transmission != 0.0))
-            .max()
-            .unwrap_or(0);
         Self {
             width: resolution.width(),
             height: resolution.height(),
             max_depth: *max_depth,
-            camera: CameraSummary { eye: scene.camera.eye.to_array(), window: scene.camera.window },
-            background: scene.background.to_array(),
-            objects: Objects { total, spheres, planes: total - spheres },
-            point_lights,
-            ambient_lights: scene.lights.len() - point_lights,
-            materials: Materials {
-                textures,
-                reflective: materials().filter(|material| material.reflection != 0.0).count(),
-                transparent: materials().filter(|material| material.transmission != 0.0).count(),
+            samples: samples.get(),
+            camera: CameraSummary::of(&scene.camera),
+            background: match scene.background {
+                Background::Uniform(color) => Some(color.to_array()),
+                Background::Function(_) => None,
             },
+            objects,
+            point_lights: lights(|light| matches!(light, Light::Point { .. })),
+            ambient_lights,
+            directional_lights: lights(|light| matches!(light, Light::Directional { .. })),
+            spot_lights: lights(|light| matches!(light, Light::Spot { .. })),
+            materials,
+            functions: functions(scene),
             sphere_bounds: bounds(description),
             worst_case: WorstCase {
                 branches,
-                rays_per_sample: if total == 0 {
+                rays_per_sample: if objects.total == 0 {
                     Some(u64::from(*max_depth >= 0))
                 } else {
-                    worst_case(branches, *max_depth, point_lights)
+                    worst_case(branches, *max_depth, scene.lights.len() - ambient_lights)
                 },
             },
         }
@@ -132,9 +208,44 @@ impl Summary {
     }
 }
 
+/// The materials of all objects and parts of solids.
+fn parts(scene: &Scene) -> impl Iterator<Item = &Arc<Material>> {
+    scene.primitives.iter().flat_map(Primitive::leaves).map(|leaf| &leaf.material).take(MOST_PARTS)
+}
+
+/// How many different functions there are.
+fn functions(scene: &Scene) -> usize {
+    let mut materials: Vec<&Arc<Material>> = parts(scene).collect();
+    materials.sort_unstable_by_key(|material| Arc::as_ptr(material));
+    materials.dedup_by_key(|material| Arc::as_ptr(material));
+    let mut found = BTreeSet::new();
+    let mut note = |function: Option<&Arc<Function>>| {
+        found.extend(function.map(Arc::as_ptr));
+    };
+    for material in materials {
+        let Material { reflection, shine, transmission, refractive_index, highlight, .. } = &**material;
+        for field in [reflection, shine, transmission, refractive_index].into_iter().chain(highlight) {
+            if let Field::Function(function) = field {
+                note(Some(function));
+            }
+        }
+        for texture in [&material.texture].into_iter().chain(&material.glow) {
+            if let Texture::Function(function) = texture {
+                note(Some(function));
+            }
+        }
+        note(material.bump.as_ref());
+    }
+    if let Background::Function(function) = &scene.background {
+        note(Some(function));
+    }
+    found.len()
+}
+
 fn texture_name(texture: &Texture) -> &'static str {
     match texture {
         Texture::Solid(_) => "solid",
+        Texture::Function(_) => "function",
         Texture::Noise(NoiseTexture::Solid { .. }) => "perlinSolid",
         Texture::Noise(NoiseTexture::SemiTurbulence { .. }) => "perlinSemiTurb",
         Texture::Noise(NoiseTexture::Turbulence { .. }) => "perlinTurb",
@@ -153,18 +264,26 @@ fn bounds(description: &Description) -> Option<Bounds> {
         .iter()
         .filter_map(|primitive| match primitive.shape {
             Shape::Sphere(sphere) => {
-                let radius = sphere.radius.abs();
-                Some(((sphere.center - radius), (sphere.center + radius)))
+                let radius = DVec3::splat(sphere.radius.abs());
+                let Some(transform) = &primitive.transform else {
+                    return Some((sphere.center - radius, sphere.center + radius));
+                };
+                let DMat3 { x_axis, y_axis, z_axis } = transform.matrix3;
+                // The image of a sphere reaches as far along an axis as that row of the matrix is long.
+                let rows = x_axis * x_axis + y_axis * y_axis + z_axis * z_axis;
+                let reach = radius * DVec3::new(rows.x.sqrt(), rows.y.sqrt(), rows.z.sqrt());
+                let center = transform.transform_point3(sphere.center);
+                Some((center - reach, center + reach))
             }
-            Shape::Plane(_) => None,
+            Shape::Plane(_) | Shape::Cuboid(_) | Shape::Csg(_) => None,
         })
         .reduce(|(min, max), (other_min, other_max)| (min.min(other_min), max.max(other_max)))
         .map(|(min, max)| Bounds { min: min.to_array(), max: max.to_array() })
 }
 
 /// The rays of levels 0 to `max_depth`, each level `branches` times as many as the one before, and a shadow
-/// ray to every point light for each of them.
-fn worst_case(branches: u32, max_depth: i32, point_lights: usize) -> Option<u64> {
+/// ray to every light but the ambient ones for each of them.
+fn worst_case(branches: u32, max_depth: i32, shadow_lights: usize) -> Option<u64> {
     let (mut level, mut rays) = (1u64, 0u64);
     for _ in 0..=max_depth {
         rays = rays.checked_add(level)?;
@@ -173,7 +292,7 @@ fn worst_case(branches: u32, max_depth: i32, point_lights: usize) -> Option<u64>
             break;
         }
     }
-    rays.checked_mul(1 + point_lights as u64)
+    rays.checked_mul(1 + shadow_lights as u64)
 }
 
 #[cfg(test)]
@@ -201,7 +320,7 @@ mod tests {
     fn an_empty_scene_is_counted() {
         let summary = summary(3, "", "");
         assert_eq!((summary.width, summary.height, summary.max_depth), (40, 30, 3));
-        assert_eq!(summary.camera, CameraSummary { eye: [0.0, 0.0, 150.0], window: [100, 75] });
+        assert_eq!(summary.camera, CameraSummary::Window { eye: [0.0, 0.0, 150.0], window: [100.0, 75.0] });
         assert_eq!((summary.objects.total, summary.sphere_bounds), (0, None));
         assert_eq!(summary.worst_case, WorstCase { branches: 0, rays_per_sample: Some(1) });
     }
@@ -213,7 +332,7 @@ mod tests {
         let spheres = sphere("(0.0,0.0,-50.0)", "0.5", "0.0") + &sphere("(30.0,0.0,-50.0)", "0.0", "0.5");
         let lights = "(ambientLight (0.1,0.1,0.1)) (pointLight (0.0,9.0,9.0) (1.0,1.0,1.0))";
         let summary = summary(2, &format!("{plane} {spheres}"), lights);
-        assert_eq!(summary.objects, Objects { total: 3, spheres: 2, planes: 1 });
+        assert_eq!(summary.objects, Objects { total: 3, spheres: 2, planes: 1, boxes: 0, csg: 0 });
         assert_eq!((summary.point_lights, summary.ambient_lights), (1, 1));
         assert_eq!((summary.materials.reflective, summary.materials.transparent), (1, 1));
         let textures: Vec<_> = summary.materials.textures.into_iter().collect();

@@ -3,8 +3,8 @@
 #![allow(clippy::unwrap_used, clippy::expect_used, reason = "a test may fail loudly")]
 
 use hray::{
-    Control, Description, Destination, Error, LintLevels, LoadError, Options, PictureFormat, Resolution,
-    SceneFile,
+    Background, Control, Description, Destination, Encoding, Error, LintLevels, LoadError, Options,
+    PictureFormat, Resolution, SceneFile,
 };
 use std::num::{NonZeroU32, NonZeroUsize};
 
@@ -123,4 +123,46 @@ fn text_that_is_not_utf8_is_one_error() {
     let file = SceneFile::parse("a.hry", b"renderDescr \xff".to_vec(), &LintLevels::default());
     assert_eq!((file.errors(), file.description()), (1, None));
     assert!(file.report(false).contains("not UTF-8"));
+}
+
+/// Linear light comes out of the file as the transfer function of sRGB has it; a raw scene's numbers pass through,
+/// and OpenEXR holds what was computed.
+#[test]
+fn a_colour_s_journey() {
+    let file = |format, encoding| {
+        let mut description = scene();
+        description.encoding = encoding;
+        description.scene.background = Background::Uniform(hray::Rgb::new(0.5, 0.5, 0.5));
+        description.scene.primitives.clear();
+        let (picture, _) =
+            hray::render_to_memory(&description, &Options::default(), &Control::new()).unwrap();
+        assert_eq!(
+            (picture.encoding(), picture.pixel(3, 4)),
+            (encoding, Some(hray::Rgb::new(0.5, 0.5, 0.5)))
+        );
+        let (bytes, _) =
+            hray::render_to_bytes(&description, &Options::default(), format, &Control::new()).unwrap();
+        assert_eq!(picture.encode(format).unwrap(), bytes);
+        bytes
+    };
+    let last = |format, encoding| file(format, encoding).last().copied();
+    assert_eq!(last(PictureFormat::Ppm, Encoding::Srgb), Some(188));
+    assert_eq!(last(PictureFormat::Ppm, Encoding::Raw), Some(128));
+    let text = |encoding| String::from_utf8(file(PictureFormat::PpmAscii, encoding)).unwrap();
+    assert!(text(Encoding::Srgb).ends_with(" 188 188 ") && text(Encoding::Raw).ends_with(" 128 128 "));
+    assert_eq!(file(PictureFormat::Exr, Encoding::Srgb), file(PictureFormat::Exr, Encoding::Raw));
+    assert_ne!(file(PictureFormat::Farbfeld, Encoding::Srgb), file(PictureFormat::Farbfeld, Encoding::Raw));
+}
+
+#[test]
+fn the_scene_asks_for_samples_and_options_override_it() {
+    let mut description = scene();
+    description.samples = NonZeroU32::new(4).unwrap();
+    let colors = |description: &Description, options: &Options| {
+        hray::render_to_memory(description, options, &Control::new()).unwrap().0
+    };
+    let four = Options { samples: NonZeroU32::new(4), ..Options::default() };
+    let one = Options { samples: NonZeroU32::new(1), ..Options::default() };
+    assert_eq!(colors(&description, &Options::default()), colors(&scene(), &four));
+    assert_eq!(colors(&description, &one), colors(&scene(), &Options::default()));
 }

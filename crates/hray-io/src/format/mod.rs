@@ -2,9 +2,10 @@
 
 mod ppm_text;
 mod quantize;
+mod srgb;
 
 use crate::{OutputError, Quoted};
-use hray_core::Rgb;
+use hray_core::{Encoding, Rgb};
 use image::ExtendedColorType;
 use std::fmt;
 use std::path::{Path, PathBuf};
@@ -134,13 +135,19 @@ impl PictureFormat {
 
     /// A run of pixels as a [`crate::PictureWriter`] of this format takes it. Pure and independent of where
     /// the run begins, so that every thread encodes what it rendered.
+    ///
+    /// `encoding` says what becomes of a component before it is rounded. OpenEXR holds linear light and takes
+    /// every component as it is.
     #[must_use]
-    pub fn encode(self, pixels: &[Rgb]) -> Vec<u8> {
-        match self.color_type() {
-            None => ppm_text::ppm_text(pixels),
-            Some(ExtendedColorType::Rgb32F) => quantize::rgb32(pixels),
-            Some(ExtendedColorType::Rgba16) => quantize::rgba16(pixels),
-            Some(_) => quantize::rgb8(pixels),
+    pub fn encode(self, pixels: &[Rgb], encoding: Encoding) -> Vec<u8> {
+        match (self.color_type(), encoding) {
+            (None, Encoding::Raw) => ppm_text::ppm_text(pixels),
+            (None, Encoding::Srgb) => ppm_text::ppm_text(&srgb::encoded(pixels)),
+            (Some(ExtendedColorType::Rgb32F), _) => quantize::rgb32(pixels),
+            (Some(ExtendedColorType::Rgba16), Encoding::Raw) => quantize::rgba16(pixels),
+            (Some(ExtendedColorType::Rgba16), Encoding::Srgb) => quantize::rgba16(&srgb::encoded(pixels)),
+            (Some(_), Encoding::Raw) => quantize::rgb8(pixels),
+            (Some(_), Encoding::Srgb) => srgb::rgb8(pixels),
         }
     }
 

@@ -9,9 +9,11 @@ use super::spans::Spans;
 use super::values::Reader;
 use crate::diagnostic::{Diagnostic, Span};
 use hray_core::{
-    Description, Light, MAX_DEPTH, MIN_DEPTH, Material, NoiseTexture, Plane, Primitive, Resolution, Rgb,
-    Scene, Shape, Sphere, Texture, WindowCamera,
+    Background, Camera, Description, Encoding, Integrator, Light, MAX_DEPTH, MIN_DEPTH, Material,
+    NoiseTexture, Plane, Primitive, Resolution, Rgb, Scene, Shape, Sphere, Texture, WindowCamera,
 };
+use std::num::NonZeroU32;
+use std::sync::Arc;
 
 /// The parts of a description that stand so far.
 #[derive(Debug, Default)]
@@ -32,11 +34,15 @@ impl Built {
             Some(Description {
                 resolution: self.resolution?,
                 max_depth: self.depth?,
+                samples: NonZeroU32::MIN,
+                integrator: Integrator::Classic2005,
+                encoding: Encoding::Raw,
                 scene: Scene {
-                    camera: self.camera?,
-                    background: self.background?,
+                    camera: Camera::Window(self.camera?),
+                    background: Background::Uniform(self.background?),
                     primitives: self.primitives,
                     lights: self.lights,
+                    time: 0.0,
                 },
             })
         };
@@ -72,7 +78,7 @@ impl Parser<'_> {
         let mut reader = self.values.reader();
         let eye = reader.vector();
         let ((width, _), (height, _)) = (reader.integer(), reader.integer());
-        self.built.camera = Some(WindowCamera { eye, window: [width, height] });
+        self.built.camera = Some(WindowCamera { eye, window: [width as f64, height as f64] });
         self.built.spans.camera = self.section_start.to(self.cursor.last().span);
     }
 
@@ -93,13 +99,19 @@ impl Parser<'_> {
     pub(crate) fn build_primitive(&mut self, span: Span) {
         let mut errors = Vec::new();
         let mut reader = self.values.reader();
-        let built = Primitive { shape: shape(&mut reader), material: material(&mut reader, &mut errors) };
+        let shape = shape(&mut reader);
+        let material = material(&mut reader, &mut errors);
         for error in errors {
             self.report(error);
         }
         // Of a scene with errors nothing is rendered, so nothing more of it is kept.
         if self.is_clean() {
-            self.built.primitives.push(built);
+            // Neighbours are often made of the same.
+            let material = match self.built.primitives.last() {
+                Some(last) if *last.material == material => last.material.clone(),
+                _ => Arc::new(material),
+            };
+            self.built.primitives.push(Primitive { shape, transform: None, material });
             self.built.spans.primitives.push(span);
         }
     }
@@ -138,11 +150,11 @@ fn material(reader: &mut Reader<'_>, errors: &mut Vec<Diagnostic>) -> Material {
         _ => Texture::Noise(noise(reader, errors)),
     };
     Material {
-        texture,
-        reflection: reader.real(),
-        shine: reader.integer().0,
-        transmission: reader.real(),
-        refractive_index: reader.real(),
+        reflection: reader.real().into(),
+        shine: (reader.integer().0 as f64).into(),
+        transmission: reader.real().into(),
+        refractive_index: reader.real().into(),
+        ..Material::matte(texture)
     }
 }
 

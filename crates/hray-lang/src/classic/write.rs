@@ -1,24 +1,39 @@
 //! Scenes back to text.
 
 use glam::DVec3;
-use hray_core::{Description, Light, Material, NoiseTexture, Primitive, Rgb, Scene, Shape, Texture};
+use hray_core::{
+    Background, Camera, Description, Encoding, Field, Integrator, Light, Material, NoiseTexture, Primitive,
+    Rgb, Scene, Shape, Texture,
+};
 use std::fmt;
+use std::num::NonZeroU32;
 
-/// A description in the classic scene language. [`parse`](super::parse) reads it back to the same bits.
+/// A description in the classic scene language, where that can say it. [`parse`](super::parse) reads it back to
+/// the same bits.
 ///
-/// Every real has to be finite: the language has no notation for infinity and NaN, and a text made with
-/// them is not a scene.
+/// The language knows spheres and planes in world space, point and ambient lights, the window camera, the noise
+/// textures of 2005 and its own integrator, and it has no notation for infinity and NaN: a description with
+/// anything else gives none.
 #[must_use]
-pub fn write(description: &Description) -> String {
+pub fn write(description: &Description) -> Option<String> {
     let mut text = String::new();
-    // Writing to a string cannot fail.
-    let _ = write_to(&mut text, description);
-    text
+    // Writing to a string cannot fail, so an error means that there is no notation for something.
+    write_to(&mut text, description).ok().map(|()| text)
 }
 
+/// What there is no notation for.
+const CANNOT_SAY: fmt::Error = fmt::Error;
+
 fn write_to(out: &mut impl fmt::Write, description: &Description) -> fmt::Result {
-    let Description { resolution, max_depth, scene } = description;
-    let Scene { camera, background, primitives, lights } = scene;
+    let Description { resolution, max_depth, samples, integrator, encoding, scene } = description;
+    let Scene { camera, background, primitives, lights, time } = scene;
+    let as_in_2005 = (integrator, encoding) == (&Integrator::Classic2005, &Encoding::Raw);
+    let (Camera::Window(camera), Background::Uniform(background)) = (camera, background) else {
+        return Err(CANNOT_SAY);
+    };
+    if !as_in_2005 || *samples != NonZeroU32::MIN || *time != 0.0 {
+        return Err(CANNOT_SAY);
+    }
     writeln!(
         out,
         "renderDescr ( resolution ({},{}) ) {max_depth} [",
@@ -26,7 +41,8 @@ fn write_to(out: &mut impl fmt::Write, description: &Description) -> fmt::Result
         resolution.height()
     )?;
     let [width, height] = camera.window;
-    writeln!(out, "scene {{ camera {} ({width},{height}) }}", Vector(camera.eye))?;
+    let (eye, width, height) = (Vector(camera.eye), whole(width)?, whole(height)?);
+    writeln!(out, "scene {{ camera {eye} ({width},{height}) }}")?;
     writeln!(out, "      {{ background {} }}", Color(*background))?;
     write!(out, "      {{ objects")?;
     for primitive in primitives {
@@ -39,14 +55,32 @@ fn write_to(out: &mut impl fmt::Write, description: &Description) -> fmt::Result
                 write!(out, "\n        (pointLight {} {})", Vector(*position), Color(*intensity))?;
             }
             Light::Ambient { intensity } => write!(out, "\n        (ambientLight {})", Color(*intensity))?,
+            Light::Directional { .. } | Light::Spot { .. } => return Err(CANNOT_SAY),
         }
     }
     writeln!(out, " }} ]")
 }
 
+/// A whole number as the grammar takes it.
+fn whole(number: f64) -> Result<i64, fmt::Error> {
+    const LIMIT: f64 = (1u64 << 63) as f64;
+    let fits = number.fract() == 0.0 && (-LIMIT..=LIMIT).contains(&number);
+    // The conversion saturates; 2^63 - 1 is read back as 2^63.
+    if fits { Ok(number as i64) } else { Err(CANNOT_SAY) }
+}
+
+/// A coefficient that is the same everywhere.
+fn constant(field: &Field) -> Result<f64, fmt::Error> {
+    field.constant().ok_or(CANNOT_SAY)
+}
+
 fn write_primitive(out: &mut impl fmt::Write, primitive: &Primitive) -> fmt::Result {
-    let Primitive { shape, material } = primitive;
-    let Material { texture, reflection, shine, transmission, refractive_index } = material;
+    let Primitive { shape, transform, material } = primitive;
+    let Material { texture, reflection, shine, transmission, refractive_index, highlight, glow, bump } =
+        &**material;
+    if transform.is_some() || highlight.is_some() || glow.is_some() || bump.is_some() {
+        return Err(CANNOT_SAY);
+    }
     write!(out, "\n        (object ( ")?;
     match shape {
         Shape::Sphere(sphere) => write!(out, "sphere {} {}", Real(sphere.radius), Vector(sphere.center))?,
@@ -54,6 +88,7 @@ fn write_primitive(out: &mut impl fmt::Write, primitive: &Primitive) -> fmt::Res
             let DVec3 { x, y, z } = plane.normal;
             write!(out, "plane ({},{},{},{})", Real(x), Real(y), Real(z), Real(plane.offset))?;
         }
+        Shape::Cuboid(_) | Shape::Csg(_) => return Err(CANNOT_SAY),
     }
     write!(out, " ) ( texture ( diff ")?;
     match texture {
@@ -63,9 +98,11 @@ fn write_primitive(out: &mut impl fmt::Write, primitive: &Primitive) -> fmt::Res
             write_noise(out, noise)?;
             write!(out, ")")?;
         }
+        Texture::Function(_) => return Err(CANNOT_SAY),
     }
-    let (reflection, transmission) = (Real(*reflection), Real(*transmission));
-    write!(out, " ) {reflection} {shine} {transmission} {} ))", Real(*refractive_index))
+    let (reflection, transmission) = (Real(constant(reflection)?), Real(constant(transmission)?));
+    let (shine, index) = (whole(constant(shine)?)?, Real(constant(refractive_index)?));
+    write!(out, " ) {reflection} {shine} {transmission} {index} ))")
 }
 
 fn write_noise(out: &mut impl fmt::Write, noise: &NoiseTexture) -> fmt::Result {
@@ -101,6 +138,9 @@ struct Real(f64);
 
 impl fmt::Display for Real {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if !self.0.is_finite() {
+            return Err(CANNOT_SAY);
+        }
         // `Display` never uses an exponent; it leaves out the point of a whole number.
         let point = if self.0.fract() == 0.0 { ".0" } else { "" };
         write!(f, "{}{point}", self.0)

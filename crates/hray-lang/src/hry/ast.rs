@@ -321,3 +321,63 @@ pub enum TypeExprKind {
     /// What could not be read; an error was reported.
     Error,
 }
+
+impl Expr {
+    /// Calls `visit` for this expression and everything in it, the outer before the inner.
+    pub fn walk<'e>(&'e self, visit: &mut impl FnMut(&'e Self)) {
+        visit(self);
+        for child in self.children() {
+            child.walk(visit);
+        }
+    }
+
+    /// The expressions directly in this one, in the order of the source.
+    #[must_use]
+    pub fn children(&self) -> Vec<&Self> {
+        match &self.kind {
+            ExprKind::Number(_)
+            | ExprKind::Bool(_)
+            | ExprKind::Text(_)
+            | ExprKind::Color(_)
+            | ExprKind::Name(_)
+            | ExprKind::Error => Vec::new(),
+            ExprKind::Vector(items) | ExprKind::List(items) => items.iter().collect(),
+            ExprKind::Range { first, second, last } => {
+                [Some(first), second.as_ref(), Some(last)].into_iter().flatten().map(AsRef::as_ref).collect()
+            }
+            ExprKind::Comprehension { body, qualifiers } => {
+                let inner = qualifiers.iter().flat_map(Qualifier::children);
+                std::iter::once(&**body).chain(inner).collect()
+            }
+            ExprKind::Record(fields) => fields.iter().map(|field| &field.value).collect(),
+            ExprKind::Update { record, fields } => {
+                std::iter::once(&**record).chain(fields.iter().map(|field| &field.value)).collect()
+            }
+            ExprKind::Field { record, .. } => vec![record],
+            ExprKind::Apply { function, argument } => vec![function, argument],
+            ExprKind::Unary { operand, .. } => vec![operand],
+            ExprKind::Binary { left, right, .. } => vec![left, right],
+            ExprKind::If { condition, then, otherwise } => vec![condition, then, otherwise],
+            ExprKind::Let { bindings, body } => {
+                bindings.iter().map(|binding| &binding.body).chain(std::iter::once(&**body)).collect()
+            }
+            ExprKind::Lambda { body, .. } => vec![body],
+            ExprKind::Match { subject, arms } => {
+                std::iter::once(&**subject).chain(arms.iter().map(|(_, body)| body)).collect()
+            }
+            ExprKind::Annotated { expression, .. } => vec![expression],
+        }
+    }
+}
+
+impl Qualifier {
+    /// The expressions directly in it, in the order of the source.
+    #[must_use]
+    pub fn children(&self) -> Vec<&Expr> {
+        match self {
+            Self::Generator { list, .. } => vec![list],
+            Self::Guard(condition) => vec![condition],
+            Self::Let(bindings) => bindings.iter().map(|binding| &binding.body).collect(),
+        }
+    }
+}

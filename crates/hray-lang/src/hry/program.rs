@@ -22,6 +22,8 @@ pub struct Program {
     pub modules: Vec<Arc<LoadedModule>>,
     /// The scene itself, in `modules`.
     pub root: usize,
+    /// What precedes the path of a file, relative to the root folder, in its name.
+    folder: String,
     /// Definitions of the root that were replaced from outside (`--set`), by name.
     pub overrides: Vec<(Arc<str>, Span)>,
 }
@@ -159,7 +161,19 @@ impl Program {
         let mut syntax = loader.parse(&text, base);
         let replaced = loader.replace(&mut syntax, overrides);
         let root = loader.finish(path.to_owned(), syntax);
-        Self { sources: loader.sources, modules: loader.modules, root, overrides: replaced }
+        Self {
+            sources: loader.sources,
+            modules: loader.modules,
+            root,
+            folder: loader.folder,
+            overrides: replaced,
+        }
+    }
+
+    /// The path, relative to the root folder, of the file with that name in messages.
+    #[must_use]
+    pub fn path_of(&self, name: &str) -> String {
+        name.strip_prefix(&self.folder).unwrap_or(name).to_owned()
     }
 
     /// The definition of a global, where it is one.

@@ -8,7 +8,7 @@ use super::sink::Sink;
 use crate::classic::Spans;
 use crate::diagnostic::Span;
 use glam::DVec3;
-use hray_core::{Light, Plane, Primitive, Scene, Shape, Sphere};
+use hray_core::{Camera, Light, Plane, Primitive, Scene, Shape, Sphere};
 use std::collections::HashMap;
 use std::hash::{DefaultHasher, Hash as _, Hasher as _};
 
@@ -24,8 +24,9 @@ const SHORTEST_HIDING_NORMAL: f64 = 1e-2;
 const LARGEST: f64 = 1e8;
 
 pub(super) fn check(sink: &mut Sink<'_>, scene: &Scene, spans: &Spans) {
+    let Camera::Window(camera) = scene.camera else { return };
     let lights = point_lights(scene);
-    let window = Window::new(scene.camera.window);
+    let window = Window::new(camera.window);
     check_normals(sink, scene, spans);
     check_duplicates(sink, &scene.primitives, spans);
     check_lights(sink, scene, spans, &window);
@@ -67,8 +68,8 @@ struct Window {
 }
 
 impl Window {
-    fn new([width, height]: [i64; 2]) -> Self {
-        Self { half: [(width as f64 / 2.0).abs(), (height as f64 / 2.0).abs()] }
+    fn new([width, height]: [f64; 2]) -> Self {
+        Self { half: [(width / 2.0).abs(), (height / 2.0).abs()] }
     }
 
     /// The distance of a point from the rectangle.
@@ -86,7 +87,7 @@ impl Window {
 fn point_lights(scene: &Scene) -> Vec<DVec3> {
     let position = |light: &Light| match light {
         Light::Point { position, .. } => Some(*position),
-        Light::Ambient { .. } => None,
+        Light::Ambient { .. } | Light::Directional { .. } | Light::Spot { .. } => None,
     };
     scene.lights.iter().filter_map(position).collect()
 }
@@ -103,19 +104,19 @@ fn margin(sphere: &Sphere) -> f64 {
 }
 
 /// The shapes that let no light through, or those that let some through.
-fn shapes(primitives: &[Primitive], opaque: bool) -> impl Iterator<Item = (usize, Shape)> {
-    let wanted = move |primitive: &Primitive| (primitive.material.transmission == 0.0) == opaque;
+fn shapes(primitives: &[Primitive], opaque: bool) -> impl Iterator<Item = (usize, &Shape)> {
+    let wanted = move |primitive: &Primitive| primitive.material.transmission.is_zero() == opaque;
     let numbered = primitives.iter().enumerate();
     numbered
         .filter(move |(_, primitive)| wanted(primitive))
-        .map(|(index, primitive)| (index, primitive.shape))
+        .map(|(index, primitive)| (index, &primitive.shape))
 }
 
 /// The largest opaque spheres that have the window outside, and no light inside. Where a transparent one lies
 /// in the same place, that may be the one that is seen.
 fn hiding_spheres(primitives: &[Primitive], window: &Window, lights: &[DVec3]) -> Vec<(usize, Sphere)> {
-    let sphere = |(index, shape)| match shape {
-        Shape::Sphere(sphere) if is_sane(&sphere) => Some((index, sphere)),
+    let sphere = |(index, shape): (usize, &Shape)| match shape {
+        Shape::Sphere(sphere) if is_sane(sphere) => Some((index, *sphere)),
         _ => None,
     };
     let mut largest: Vec<(usize, Sphere)> = shapes(primitives, true).filter_map(sphere).collect();
@@ -183,9 +184,9 @@ impl Side {
 /// The opaque planes that have the window and all lights on one side, but for those in the place of which a
 /// transparent one may be seen.
 fn hiding_planes(primitives: &[Primitive], window: &Window, lights: &[DVec3]) -> Vec<(usize, Side)> {
-    let side = |(index, shape)| match shape {
-        Shape::Plane(plane) => Some((index, Side::new(&plane, window, lights)?)),
-        Shape::Sphere(_) => None,
+    let side = |(index, shape): (usize, &Shape)| match shape {
+        Shape::Plane(plane) => Some((index, Side::new(plane, window, lights)?)),
+        Shape::Sphere(_) | Shape::Cuboid(_) | Shape::Csg(_) => None,
     };
     let mut planes: Vec<(usize, Side)> =
         shapes(primitives, true).filter_map(side).take(MOST_CANDIDATES).collect();
@@ -216,11 +217,12 @@ fn check_duplicates(sink: &mut Sink<'_>, primitives: &[Primitive], spans: &Spans
     let mut later: HashMap<u64, usize> = HashMap::with_capacity(primitives.len());
     let mut found = Vec::new();
     for (index, primitive) in primitives.iter().enumerate().rev() {
-        let bits = shape_bits(&primitive.shape);
+        let Some(bits) = shape_bits(&primitive.shape) else { continue };
         let mut hasher = DefaultHasher::new();
         bits.hash(&mut hasher);
         let other = *later.entry(hasher.finish()).or_insert(index);
-        if other != index && primitives.get(other).is_some_and(|other| shape_bits(&other.shape) == bits) {
+        if other != index && primitives.get(other).is_some_and(|other| shape_bits(&other.shape) == Some(bits))
+        {
             found.push([index, other]);
         }
     }
@@ -236,24 +238,25 @@ fn check_duplicates(sink: &mut Sink<'_>, primitives: &[Primitive], spans: &Spans
     }
 }
 
-fn shape_bits(shape: &Shape) -> (bool, [u64; 4]) {
+fn shape_bits(shape: &Shape) -> Option<(bool, [u64; 4])> {
     let (is_sphere, vector, number) = match shape {
         Shape::Sphere(sphere) => (true, sphere.center, sphere.radius),
         Shape::Plane(plane) => (false, plane.normal, plane.offset),
+        Shape::Cuboid(_) | Shape::Csg(_) => return None,
     };
-    (is_sphere, [vector.x, vector.y, vector.z, number].map(f64::to_bits))
+    Some((is_sphere, [vector.x, vector.y, vector.z, number].map(f64::to_bits)))
 }
 
 /// Looks for point lights inside spheres that the window is not inside of as well.
 fn check_lights(sink: &mut Sink<'_>, scene: &Scene, spans: &Spans, window: &Window) {
     let lights = scene.lights.iter().enumerate().filter_map(|(index, light)| match light {
         Light::Point { position, .. } => Some((index, *position)),
-        Light::Ambient { .. } => None,
+        Light::Ambient { .. } | Light::Directional { .. } | Light::Spot { .. } => None,
     });
     for (index, position) in lights.take(MOST_CANDIDATES) {
-        let around = scene.primitives.iter().position(|primitive| match primitive.shape {
-            Shape::Sphere(sphere) => is_sane(&sphere) && shuts_in(&sphere, position, window),
-            Shape::Plane(_) => false,
+        let around = scene.primitives.iter().position(|primitive| match &primitive.shape {
+            Shape::Sphere(sphere) => is_sane(sphere) && shuts_in(sphere, position, window),
+            Shape::Plane(_) | Shape::Cuboid(_) | Shape::Csg(_) => false,
         });
         let Some(around) = around else { continue };
         sink.report("light-inside-sphere", |words| {

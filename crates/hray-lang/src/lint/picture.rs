@@ -3,7 +3,7 @@
 use super::sink::Sink;
 use crate::classic::Spans;
 use crate::diagnostic::Span;
-use hray_core::{Description, MIN_DEPTH, Resolution};
+use hray_core::{Camera, Description, MIN_DEPTH, Resolution};
 
 /// How far the pixels may be from square.
 const ASPECT_TOLERANCE: f64 = 0.01;
@@ -31,7 +31,8 @@ pub(super) fn check(sink: &mut Sink<'_>, description: &Description, spans: &Span
                 .with_help("write, for example, `(pointLight (30.0,50.0,100.0) (0.8,0.8,0.8))`")
         });
     }
-    if scene.camera.eye.z == 0.0 {
+    let Camera::Window(camera) = scene.camera else { return };
+    if camera.eye.z == 0.0 {
         sink.report("eye-in-window", |words| {
             let eye = words.numbers(spans.camera, 0, WINDOW);
             let label = "the window lies in the plane z = 0";
@@ -41,8 +42,8 @@ pub(super) fn check(sink: &mut Sink<'_>, description: &Description, spans: &Span
                 .with_help("move the eye along the z axis, for example to (0.0,0.0,150.0)")
         });
     }
-    let [width, height] = scene.camera.window;
-    if width < 1 || height < 1 {
+    let [width, height] = camera.window;
+    if width < 1.0 || height < 1.0 {
         sink.report("window-size", |words| {
             let label = "a side of 0 leaves nothing to see, a negative one mirrors the picture";
             let message = format!("the camera's window is {width} by {height}");
@@ -53,9 +54,8 @@ pub(super) fn check(sink: &mut Sink<'_>, description: &Description, spans: &Span
     }
 }
 
-fn check_aspect(sink: &mut Sink<'_>, resolution: Resolution, [width, height]: [i64; 2], spans: &Spans) {
+fn check_aspect(sink: &mut Sink<'_>, resolution: Resolution, [width, height]: [f64; 2], spans: &Spans) {
     let (across, up) = (f64::from(resolution.width()), f64::from(resolution.height()));
-    let (width, height) = (width as f64, height as f64);
     let ratio = (width / across) / (height / up);
     let square = (across * height / width).round();
     // A picture of few pixels cannot always have the proportions of the window.

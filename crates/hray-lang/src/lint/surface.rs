@@ -3,7 +3,7 @@
 use super::sink::Sink;
 use crate::classic::Spans;
 use crate::diagnostic::Span;
-use hray_core::{Light, Material, NoiseTexture, Primitive, Rgb, Scene, Shape, Texture};
+use hray_core::{Background, Field, Light, Material, NoiseTexture, Primitive, Rgb, Scene, Shape, Texture};
 
 /// More octaves than this are too many.
 const MOST_OCTAVES: u32 = 30;
@@ -11,7 +11,9 @@ const MOST_OCTAVES: u32 = 30;
 const SHAPE_NUMBERS: usize = 4;
 
 pub(super) fn check(sink: &mut Sink<'_>, scene: &Scene, spans: &Spans) {
-    check_color(sink, spans.background, 0, "the background colour", scene.background);
+    if let Background::Uniform(background) = scene.background {
+        check_color(sink, spans.background, 0, "the background colour", background);
+    }
     for (primitive, span) in scene.primitives.iter().zip(&spans.primitives) {
         check_primitive(sink, primitive, *span);
     }
@@ -19,6 +21,7 @@ pub(super) fn check(sink: &mut Sink<'_>, scene: &Scene, spans: &Spans) {
         let (first, intensity) = match light {
             Light::Point { intensity, .. } => (3, *intensity),
             Light::Ambient { intensity } => (0, *intensity),
+            Light::Directional { .. } | Light::Spot { .. } => continue,
         };
         check_color(sink, *span, first, "the light's intensity", intensity);
     }
@@ -47,6 +50,7 @@ fn check_primitive(sink: &mut Sink<'_>, primitive: &Primitive, span: Span) {
             first + 3
         }
         Texture::Noise(noise) => check_noise(sink, span, first, noise),
+        Texture::Function(_) => return,
     };
     check_coefficients(sink, span, next, &primitive.material);
 }
@@ -119,10 +123,15 @@ fn check_octaves(sink: &mut Sink<'_>, span: Span, index: usize, octaves: u32) {
 
 /// Checks the four numbers at the end of a texture, which start at `first`.
 fn check_coefficients(sink: &mut Sink<'_>, span: Span, first: usize, material: &Material) {
-    let Material { reflection, shine, transmission, refractive_index, .. } = *material;
+    let Material { reflection, shine, transmission, refractive_index, .. } = material;
+    let [Some(reflection), Some(shine), Some(transmission), Some(refractive_index)] =
+        [reflection, shine, transmission, refractive_index].map(Field::constant)
+    else {
+        return;
+    };
     check_number(sink, span, first, "the reflection coefficient", reflection);
     check_number(sink, span, first + 2, "the transparency coefficient", transmission);
-    if shine < 0 {
+    if shine < 0.0 {
         sink.report("negative-shine", |words| {
             let message = format!("the highlight exponent is {shine}");
             let label = "expected 0 or more: the larger, the smaller and sharper the highlight";

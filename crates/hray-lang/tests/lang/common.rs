@@ -1,14 +1,16 @@
 //! A scene to break, and random ones.
 
 use hray_core::{
-    DVec3, Description, Light, Material, NoiseTexture, Plane, Primitive, Resolution, Rgb, Scene, Shape,
-    Sphere, Texture, WindowCamera,
+    Background, Camera, DVec3, Description, Encoding, Integrator, Light, Material, NoiseTexture, Plane,
+    Primitive, Resolution, Rgb, Scene, Shape, Sphere, Texture, WindowCamera,
 };
 use hray_lang::diagnostic::{Diagnostic, render};
 use hray_lang::lint::{self, LintLevels};
 use hray_lang::{classic, decode::decode};
 use proptest::prelude::*;
+use std::num::NonZeroU32;
 use std::ops::Range;
+use std::sync::Arc;
 
 /// A scene with nothing wrong.
 pub(crate) const SCENE: &str = "\
@@ -150,7 +152,14 @@ fn primitive() -> impl Strategy<Value = Primitive> {
     (shape, texture, real(), any::<i64>(), real(), real()).prop_map(
         |(shape, texture, reflection, shine, transmission, refractive_index)| Primitive {
             shape,
-            material: Material { texture, reflection, shine, transmission, refractive_index },
+            transform: None,
+            material: Arc::new(Material {
+                reflection: reflection.into(),
+                shine: (shine as f64).into(),
+                transmission: transmission.into(),
+                refractive_index: refractive_index.into(),
+                ..Material::matte(texture)
+            }),
         },
     )
 }
@@ -170,7 +179,8 @@ prop_compose! {
         primitives in prop::collection::vec(primitive(), 0..6),
         lights in prop::collection::vec(light(), 0..4),
     ) -> Scene {
-        Scene { camera: WindowCamera { eye, window }, background, primitives, lights }
+        let camera = Camera::Window(WindowCamera { eye, window: window.map(|side| side as f64) });
+        Scene { camera, background: Background::Uniform(background), primitives, lights, time: 0.0 }
     }
 }
 
@@ -183,6 +193,13 @@ prop_compose! {
         max_depth in -1..=10_000i32,
         scene in scene(),
     ) -> Description {
-        Description { resolution, max_depth, scene }
+        Description {
+            resolution,
+            max_depth,
+            samples: NonZeroU32::MIN,
+            integrator: Integrator::Classic2005,
+            encoding: Encoding::Raw,
+            scene,
+        }
     }
 }

@@ -18,7 +18,7 @@ fn the_fuzz_corpus_is_read_or_refused() {
         let shown = render(&diagnostics, "scene.hry", &text, true);
         assert_eq!(shown.is_empty(), diagnostics.is_empty(), "{}", path.display());
         if let Some(description) = parse(&text).description {
-            assert_eq!(parse(&write(&description)).description.as_ref(), Some(&description));
+            assert_eq!(parse(&write(&description).unwrap()).description.as_ref(), Some(&description));
         }
         count += 1;
     }

@@ -1,7 +1,9 @@
 //! What an accepted scene means.
 
 use crate::common::{SCENE, broken};
-use hray_core::{DVec3, Light, NoiseTexture, Plane, Rgb, Shape, Sphere, Texture};
+use hray_core::{
+    Background, Camera, DVec3, Field, Light, NoiseTexture, Plane, Rgb, Shape, Sphere, Texture, WindowCamera,
+};
 use hray_lang::classic::{Spans, parse};
 
 #[test]
@@ -10,16 +12,16 @@ fn every_number_goes_where_it_belongs() {
     assert_eq!((description.resolution.width(), description.resolution.height()), (400, 300));
     assert_eq!(description.max_depth, 3);
     let scene = description.scene;
-    assert_eq!(scene.camera.eye, DVec3::new(0.0, 0.0, 150.0));
-    assert_eq!(scene.camera.window, [100, 75]);
-    assert_eq!(scene.background, Rgb::new(0.8, 0.8, 0.8));
+    let camera = WindowCamera { eye: DVec3::new(0.0, 0.0, 150.0), window: [100.0, 75.0] };
+    assert_eq!(scene.camera, Camera::Window(camera));
+    assert_eq!(scene.background, Background::Uniform(Rgb::new(0.8, 0.8, 0.8)));
 
     let [ball, floor] = &scene.primitives[..] else { panic!() };
     let sphere = Sphere { radius: 40.0, center: DVec3::new(0.0, 0.0, -150.0) };
     assert_eq!(ball.shape, Shape::Sphere(sphere));
     assert_eq!(ball.material.texture, Texture::Solid(Rgb::new(0.8, 0.2, 0.2)));
-    assert_eq!((ball.material.reflection, ball.material.shine), (0.3, 60));
-    assert_eq!((ball.material.transmission, ball.material.refractive_index), (0.0, 0.0));
+    assert_eq!([&ball.material.reflection, &ball.material.shine], [&Field::Constant(0.3), &60.0.into()]);
+    assert!(ball.material.transmission.is_zero() && ball.material.refractive_index.is_zero());
     assert_eq!(floor.shape, Shape::Plane(Plane { normal: DVec3::Y, offset: 50.0 }));
 
     let point = Light::Point { position: DVec3::new(90.0, 80.0, 70.0), intensity: Rgb::new(0.7, 0.7, 0.7) };
@@ -68,8 +70,9 @@ fn tokens_need_no_white_space_between_them() {
     let dense = dense.replace("diffsolid", "diff\u{a0}solid");
     let description = parse(&dense).description.unwrap();
     assert_eq!(description.max_depth, -1);
-    assert!(description.scene.background.g.is_sign_negative());
-    assert_eq!(description.scene.primitives[0].material.shine, -1);
+    let Background::Uniform(background) = description.scene.background else { panic!() };
+    assert!(background.g.is_sign_negative());
+    assert_eq!(description.scene.primitives[0].material.shine, Field::Constant(-1.0));
 }
 
 #[test]

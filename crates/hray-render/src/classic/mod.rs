@@ -6,6 +6,7 @@
 //! above. The levels are a list, not the call stack: the deepest recursion allowed costs memory, not a crash.
 
 mod frame;
+mod material;
 mod shapes;
 mod steps;
 mod texture;
@@ -13,9 +14,10 @@ mod texture;
 use crate::{Control, RayCounts};
 use fearless_simd::{Level, dispatch};
 use frame::{Background, Frame, Phase};
-use hray_core::{Light, Material, NoiseTables, Rgb, Scene, WindowCamera};
+use hray_core::{Camera, DVec3, Description, Light, NoiseTables, Rgb, WindowCamera};
 use hray_expr::kernels::lanes::MAX_LANES;
 use hray_expr::kernels::noise::Noise;
+use material::Material;
 use shapes::Prepared;
 
 /// The most rays a batch is made of: enough to fill vectors after grouping, few enough to stay in cache.
@@ -63,13 +65,20 @@ impl Scratch {
 pub(crate) struct Stopped;
 
 impl Integrator {
-    pub(crate) fn new(scene: &Scene, tables: &NoiseTables) -> Self {
+    pub(crate) fn new(description: &Description, tables: &NoiseTables) -> Self {
+        let scene = &description.scene;
         Self {
             shapes: scene.primitives.iter().rev().map(|p| Prepared::new(&p.shape)).collect(),
-            materials: scene.primitives.iter().rev().map(|p| p.material.clone()).collect(),
+            materials: scene.primitives.iter().rev().map(|p| Material::new(&p.material)).collect(),
             lights: scene.lights.iter().rev().copied().collect(),
-            background: scene.background,
-            camera: scene.camera,
+            background: match scene.background {
+                hray_core::Background::Uniform(color) => color,
+                hray_core::Background::Function(_) => Rgb::BLACK,
+            },
+            camera: match scene.camera {
+                Camera::Window(camera) => camera,
+                _ => WindowCamera { eye: DVec3::Z, window: [1.0; 2] },
+            },
             noise: Noise::new(tables),
             level: Level::new(),
         }
@@ -77,7 +86,7 @@ impl Integrator {
 
     /// Width and height of the window, in world units.
     pub(crate) fn window(&self) -> [f64; 2] {
-        self.camera.window.map(|side| side as f64)
+        self.camera.window
     }
 
     /// How many points [`Integrator::radiance`] should be given at a time.
@@ -226,10 +235,14 @@ impl Integrator {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use hray_core::{DVec3, NoiseTexture, Plane, Primitive, Shape, Sphere, Texture};
+    use hray_core::{
+        Background, Encoding, NoiseTexture, Plane, Primitive, Resolution, Scene, Shape, Sphere, Texture,
+    };
+    use std::num::NonZeroU32;
+    use std::sync::Arc;
 
     /// A scene in which every texture, reflection, refraction, shadow and total reflection occurs.
-    fn scene() -> Scene {
+    fn description() -> Description {
         let (base, added) = (Rgb::new(0.9, 0.5, 0.3), Rgb::new(0.1, 0.3, 0.2));
         let direction = DVec3::new(0.3, 0.1, 0.05);
         let (octaves, grid, power) = (7, 9.0, 6.0);
@@ -245,12 +258,12 @@ mod tests {
             Texture::Noise(NoiseTexture::Wood { base, octaves, grid, rings: 0.7, power }),
             Texture::Noise(NoiseTexture::Turbulence { base, octaves: 60, grid: 1e-9 }),
         ];
-        let material = |i: usize, texture| Material {
-            texture,
-            reflection: [0.0, 0.3, 0.8][i % 3],
-            shine: [0, 1, 2, 3, 60, 401][i % 6],
-            transmission: [0.0, 0.7][i % 2],
-            refractive_index: [1.5, 0.7][i / 2 % 2],
+        let material = |i: usize, texture| hray_core::Material {
+            reflection: [0.0, 0.3, 0.8][i % 3].into(),
+            shine: [0.0, 1.0, 2.0, 3.0, 60.0, 401.0][i % 6].into(),
+            transmission: [0.0, 0.7][i % 2].into(),
+            refractive_index: [1.5, 0.7][i / 2 % 2].into(),
+            ..hray_core::Material::matte(texture)
         };
         let sphere = |i: usize| {
             Shape::Sphere(Sphere {
@@ -265,22 +278,34 @@ mod tests {
         let floor = Shape::Plane(Plane { normal: DVec3::new(0.1, 1.0, 0.0), offset: 45.0 });
         let shapes = (0..9).map(sphere).chain([floor]);
         let primitives = shapes.zip(textures).enumerate();
-        Scene {
-            camera: WindowCamera { eye: DVec3::new(3.0, 0.0, 90.0), window: [80, 60] },
-            background: Rgb::new(0.2, 0.4, 1.5),
-            primitives: primitives
-                .map(|(i, (shape, texture))| Primitive { shape, material: material(i, texture) })
-                .collect(),
+        let primitive = |(i, (shape, texture))| Primitive {
+            shape,
+            transform: None,
+            material: Arc::new(material(i, texture)),
+        };
+        let scene = Scene {
+            camera: Camera::Window(WindowCamera { eye: DVec3::new(3.0, 0.0, 90.0), window: [80.0, 60.0] }),
+            background: Background::Uniform(Rgb::new(0.2, 0.4, 1.5)),
+            primitives: primitives.map(primitive).collect(),
+            time: 0.0,
             lights: vec![
                 Light::Point { position: DVec3::new(50.0, 80.0, 20.0), intensity: Rgb::new(0.7, 0.6, 0.5) },
                 Light::Ambient { intensity: Rgb::new(0.05, 0.0, 0.1) },
                 Light::Point { position: DVec3::new(-60.0, 10.0, -10.0), intensity: Rgb::new(0.2, 0.3, 0.5) },
             ],
+        };
+        Description {
+            resolution: Resolution::new(61, 47).unwrap(),
+            max_depth: 6,
+            samples: NonZeroU32::MIN,
+            integrator: hray_core::Integrator::Classic2005,
+            encoding: Encoding::Raw,
+            scene,
         }
     }
 
     fn colors(level: Level, batch: usize) -> (Vec<[u64; 3]>, RayCounts) {
-        let mut integrator = Integrator::new(&scene(), &NoiseTables::default());
+        let mut integrator = Integrator::new(&description(), &NoiseTables::default());
         integrator.level = level;
         let points: Vec<[f64; 2]> =
             (0..61 * 47).map(|i| [f64::from(i % 61) * 1.3 - 40.0, f64::from(i / 61) * 1.3 - 30.0]).collect();
@@ -307,7 +332,7 @@ mod tests {
 
     #[test]
     fn a_cancelled_render_stops() {
-        let integrator = Integrator::new(&scene(), &NoiseTables::default());
+        let integrator = Integrator::new(&description(), &NoiseTables::default());
         let control = Control::new();
         control.cancel();
         let stopped = integrator.radiance(&[[0.0; 2]], 6, &mut Scratch::new(), &control, &mut Vec::new());

@@ -47,6 +47,9 @@ impl Prepared {
                 let unit_normal = if length < PARALLEL { DVec3::ZERO } else { n * (1.0 / length) };
                 Self::Plane { normal: n, offset: plane.offset, unit_normal }
             }
+            Shape::Cuboid(_) | Shape::Csg(_) => {
+                Self::Plane { normal: DVec3::ZERO, offset: 0.0, unit_normal: DVec3::ZERO }
+            }
         }
     }
 

@@ -2,17 +2,18 @@
 
 use super::Integrator;
 use super::frame::{Background, Frame, Group, NOTHING};
+use super::material::Material;
 use super::shapes::{Prepared, Rays};
 use super::texture::color_at;
 use crate::Control;
 use fearless_simd::prelude::*;
-use hray_core::{DVec3, Light, Material};
+use hray_core::{DVec3, Light};
 use hray_expr::kernels::lanes::{Lanes, Mask, Vec3, consecutive, gather};
 use hray_expr::kernels::power::power;
 
 /// A highlight of coefficient 0 vanishes whatever its power, as long as that is finite; up to this exponent
 /// it is, because the cosine exceeds 1 by rounding only.
-const FINITE_POWER: i64 = 1 << 40;
+const FINITE_POWER: f64 = (1u64 << 40) as f64;
 
 /// The places at which vectors start in `len` entries from `start`.
 #[inline(always)]
@@ -104,6 +105,7 @@ fn light<S: Simd>(
         }
         match *source {
             Light::Ambient { intensity } => sum = sum.add(Vec3::splat(simd, intensity)),
+            Light::Directional { .. } | Light::Spot { .. } => {}
             Light::Point { position, intensity } => {
                 let (to_light, distance) = Vec3::splat(simd, position).sub(point).norm(simd);
                 let dark = shadowed(simd, &scene.shapes, &Rays::new(point, to_light), distance);
@@ -151,11 +153,11 @@ fn highlight<S: Simd>(
     direction: Vec3<S>,
     to_light: Vec3<S>,
 ) -> Option<Lanes<S>> {
-    if material.reflection == 0.0 && (0..=FINITE_POWER).contains(&material.shine) {
+    if material.reflection == 0.0 && (0.0..=FINITE_POWER).contains(&material.shine) {
         return None;
     }
     let (half, _) = to_light.sub(direction).norm(simd);
-    Some(power(simd, normal.dot(half), material.shine as f64) * material.reflection)
+    Some(power(simd, normal.dot(half), material.shine) * material.reflection)
 }
 
 /// The mirrored rays of a frame: `reflectPt`.
