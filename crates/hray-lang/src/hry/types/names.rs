@@ -3,7 +3,9 @@
 use super::lints;
 use super::unknown;
 use crate::diagnostic::{Diagnostic, Span};
-use crate::hry::ast::{Definition, Expr, ExprKind, Import, ImportNames, Module, Name, Pattern, PatternKind, Qualifier};
+use crate::hry::ast::{
+    Definition, Expr, ExprKind, Import, ImportNames, Module, Name, Pattern, PatternKind, Qualifier,
+};
 use crate::hry::program::{Global, LoadedModule};
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -106,7 +108,9 @@ fn own_definitions(place: usize, module: &LoadedModule) -> HashMap<Arc<str>, Spa
 /// Whether two globals are the same.
 pub(super) fn same(a: Global, b: Global) -> bool {
     match (a, b) {
-        (Global::Definition { module: m, index: i }, Global::Definition { module: n, index: j }) => (m, i) == (n, j),
+        (Global::Definition { module: m, index: i }, Global::Definition { module: n, index: j }) => {
+            (m, i) == (n, j)
+        }
         (Global::Native(a), Global::Native(b)) => a.native == b.native,
         (Global::Constructor(a), Global::Constructor(b)) => a.name == b.name,
         _ => false,
@@ -145,7 +149,8 @@ impl Resolver<'_> {
             ImportNames::All => {}
             ImportNames::Listed(listed) => {
                 for name in listed {
-                    if let Some(global @ Global::Definition { .. }) = self.module.scope.names.get(&name.text) {
+                    if let Some(global @ Global::Definition { .. }) = self.module.scope.names.get(&name.text)
+                    {
                         self.names.places.push((name.span, Meaning::Global(*global)));
                     }
                 }
@@ -175,7 +180,9 @@ impl Resolver<'_> {
     fn bind(&mut self, pattern: &Pattern, scope: Span, is_let: bool, locals: &mut Vec<usize>) {
         match &pattern.kind {
             PatternKind::Name(name) => self.bind_name(name, pattern.span, scope, is_let, locals),
-            PatternKind::Vector(parts) => parts.iter().for_each(|part| self.bind(part, scope, is_let, locals)),
+            PatternKind::Vector(parts) => {
+                parts.iter().for_each(|part| self.bind(part, scope, is_let, locals))
+            }
             PatternKind::List { items, rest } => {
                 items.iter().for_each(|item| self.bind(item, scope, is_let, locals));
                 if let Some(Some(rest)) = rest {
@@ -192,11 +199,13 @@ impl Resolver<'_> {
     fn bind_name(&mut self, name: &Arc<str>, span: Span, scope: Span, is_let: bool, locals: &mut Vec<usize>) {
         let outer = self.scopes.get(name).and_then(|locals| locals.last());
         let outer = outer.and_then(|local| self.names.locals.get(*local).map(|local| (*local).span));
-        let together = locals.iter().any(|local| self.names.locals.get(*local).is_some_and(|l| l.name == *name));
+        let together =
+            locals.iter().any(|local| self.names.locals.get(*local).is_some_and(|l| l.name == *name));
         if let (true, Some(first)) = (together, outer) {
-            let error = Diagnostic::error("defined-twice", format!("`{name}` is bound twice"), span, "again here")
-                .with_secondary(first, "first bound here")
-                .with_help("give one of them another name, or write `_` for what is not needed");
+            let error =
+                Diagnostic::error("defined-twice", format!("`{name}` is bound twice"), span, "again here")
+                    .with_secondary(first, "first bound here")
+                    .with_help("give one of them another name, or write `_` for what is not needed");
             self.diagnostics.push(error);
         } else if let Some(first) = outer.or_else(|| self.own.get(name).copied()) {
             if !name.starts_with('_') {
@@ -204,7 +213,14 @@ impl Resolver<'_> {
             }
         }
         let local = self.names.locals.len();
-        self.names.locals.push(Local { name: name.clone(), span, scope, is_let, is_used: false, fields: Fields::None });
+        self.names.locals.push(Local {
+            name: name.clone(),
+            span,
+            scope,
+            is_let,
+            is_used: false,
+            fields: Fields::None,
+        });
         self.names.bound.insert(span.start, local);
         self.scopes.entry(name.clone()).or_default().push(local);
         locals.push(local);
@@ -404,7 +420,11 @@ impl Resolver<'_> {
                 }
             }
             ExprKind::Annotated { expression, .. } => self.expr(expression),
-            ExprKind::Number(_) | ExprKind::Bool(_) | ExprKind::Text(_) | ExprKind::Color(_) | ExprKind::Error => {}
+            ExprKind::Number(_)
+            | ExprKind::Bool(_)
+            | ExprKind::Text(_)
+            | ExprKind::Color(_)
+            | ExprKind::Error => {}
         }
     }
 

@@ -233,8 +233,9 @@ impl Store {
         let trail = std::mem::take(&mut self.trail);
         match result {
             Ok(()) => {
-                let variables =
-                    trail.iter().filter(|(_, before)| matches!(before, Node::Variable { .. } | Node::Rigid { .. }));
+                let variables = trail
+                    .iter()
+                    .filter(|(_, before)| matches!(before, Node::Variable { .. } | Node::Rigid { .. }));
                 self.woken.extend(variables.map(|(ty, _)| *ty));
             }
             Err(_) => {

@@ -89,7 +89,9 @@ impl Infer<'_> {
 
     pub(super) fn decide(&mut self, demand: &Demand, origin: Origin) -> Decided {
         match demand {
-            Demand::Arithmetic { operator, left, right, result } => self.arithmetic(*operator, *left, *right, *result),
+            Demand::Arithmetic { operator, left, right, result } => {
+                self.arithmetic(*operator, *left, *right, *result)
+            }
             Demand::Field { record, name, result, access } => self.field(*record, name, *result, *access),
             Demand::Construct { record, constructor } => self.construct(*record, constructor, origin),
             Demand::Slot { value, field, .. } => self.slot(*value, field),
@@ -187,6 +189,18 @@ impl Infer<'_> {
         Ok(false)
     }
 
+    /// The fields that are demanded of something that is not known yet.
+    pub(in crate::hry::types) fn demanded_fields(&self, ty: Ty) -> Vec<Arc<str>> {
+        let variable = self.types.store.find(ty);
+        let waiting = self.waiting_fields.get(&variable).into_iter().flatten();
+        let demands = waiting.filter_map(|id| self.constraints.get(*id));
+        let names = demands.filter_map(|constraint| match &constraint.demand {
+            Demand::Field { name, .. } => Some(name.clone()),
+            _ => None,
+        });
+        names.collect()
+    }
+
     /// A record that a constructor takes.
     fn construct(&mut self, record: Ty, constructor: &'static Constructor, origin: Origin) -> Decided {
         match self.types.store.get(record).clone() {
@@ -204,7 +218,12 @@ impl Infer<'_> {
         }
     }
 
-    fn fields_of_record(&mut self, fields: &[(Arc<str>, Ty)], constructor: &'static Constructor, origin: Origin) {
+    fn fields_of_record(
+        &mut self,
+        fields: &[(Arc<str>, Ty)],
+        constructor: &'static Constructor,
+        origin: Origin,
+    ) {
         for (name, ty) in fields {
             match constructor.field(name) {
                 Some((_, field)) => {
@@ -239,7 +258,8 @@ impl Infer<'_> {
                 Ok(true)
             }
             Node::Variable { .. } => {
-                let heads = if allowed.from.is_some() { allowed.all().or(Head::Function) } else { allowed.heads };
+                let heads =
+                    if allowed.from.is_some() { allowed.all().or(Head::Function) } else { allowed.heads };
                 self.types.store.narrow(value, heads).map_err(wrong)?;
                 let only_function = allowed.from.filter(|_| allowed.all().is_empty());
                 if let Some(from) = only_function {
