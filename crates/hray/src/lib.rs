@@ -69,4 +69,6 @@ pub use hray_io::{
 pub use hray_lang::classic::write as write_classic;
 pub use hray_lang::diagnostic::{Diagnostic, Severity};
 pub use hray_lang::lint::{ALL_LINTS, LINTS, Level, Lint, LintLevels, UnknownLint};
-pub use hray_render::{Control, MAX_SAMPLES, RayCounts, Region, RegionError, Settings, Statistics};
+pub use hray_render::{
+    Control, MAX_SAMPLES, MAX_SOLID_PARTS, RayCounts, Region, RegionError, Settings, Statistics,
+};
