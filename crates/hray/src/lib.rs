@@ -76,4 +76,6 @@ pub use hray_lang::diagnostic::{Diagnostic, Severity};
 pub use hray_lang::hry::eval::Limits;
 pub use hray_lang::hry::{Sources, convert};
 pub use hray_lang::lint::{ALL_LINTS, CLASSIC_LINTS, LINTS, Level, Lint, LintLevels, UnknownLint, hry_lints};
-pub use hray_render::{Control, MAX_SAMPLES, RayCounts, Region, RegionError, Settings, Statistics};
+pub use hray_render::{
+    Control, MAX_SAMPLES, MAX_SOLID_PARTS, RayCounts, Region, RegionError, Settings, Statistics,
+};
