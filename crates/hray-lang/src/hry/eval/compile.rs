@@ -1,7 +1,8 @@
 //! From syntax to code: names become places.
 
 use super::code::{
-    Binding, Capture, Code, CodeKind, ComprehensionCode, FieldName, FunctionCode, Lambda, Pattern, QualifierCode, RangeCode,
+    Binding, Capture, Code, CodeKind, ComprehensionCode, FieldName, FunctionCode, Lambda, Pattern,
+    QualifierCode, RangeCode,
 };
 use super::value::{FunctionKind, FunctionValue, Symbol, Value};
 use crate::diagnostic::{Diagnostic, Span};
@@ -84,7 +85,12 @@ impl<'a> Compiler<'a> {
     }
 
     /// Parameters and body in the scope on top.
-    fn body(&mut self, name: Option<Arc<str>>, parameters: &[ast::Pattern], body: &Expr) -> Result<FunctionCode> {
+    fn body(
+        &mut self,
+        name: Option<Arc<str>>,
+        parameters: &[ast::Pattern],
+        body: &Expr,
+    ) -> Result<FunctionCode> {
         for _ in parameters {
             self.new_local();
         }
@@ -194,7 +200,8 @@ impl<'a> Compiler<'a> {
     }
 
     fn global(global: Global) -> CodeKind {
-        let function = |kind| CodeKind::Constant(Value::Function(Arc::new(FunctionValue { kind, nesting: 0 })));
+        let function =
+            |kind| CodeKind::Constant(Value::Function(Arc::new(FunctionValue { kind, nesting: 0 })));
         match global {
             Global::Definition { module, index } => CodeKind::Global(module, index),
             Global::Constructor(constructor) => function(FunctionKind::Constructor(constructor)),
@@ -243,7 +250,8 @@ impl<'a> Compiler<'a> {
             }
             ExprKind::Update { record, fields } => {
                 let record = Box::new(self.expr(record)?);
-                let field = |f: &ast::FieldValue| Ok((self.symbols.number(&f.name.text), self.expr(&f.value)?));
+                let field =
+                    |f: &ast::FieldValue| Ok((self.symbols.number(&f.name.text), self.expr(&f.value)?));
                 CodeKind::Update(record, fields.iter().map(field).collect::<Result<_>>()?)
             }
             ExprKind::Field { record, name } => match self.qualified(record, name) {
@@ -251,11 +259,14 @@ impl<'a> Compiler<'a> {
                 None => CodeKind::Field(Box::new(self.expr(record)?), self.field_name(&name.text)),
             },
             ExprKind::Apply { .. } => self.call(expr)?,
-            ExprKind::Unary { operator, operand } => CodeKind::Unary(*operator, Box::new(self.expr(operand)?)),
+            ExprKind::Unary { operator, operand } => {
+                CodeKind::Unary(*operator, Box::new(self.expr(operand)?))
+            }
             ExprKind::Binary { operator, left, right, .. } => match operator {
                 BinaryOperator::Pipe => {
                     let (callee, arguments) = application(right);
-                    let arguments = arguments.into_iter().chain([&**left]).map(|argument| self.expr(argument));
+                    let arguments =
+                        arguments.into_iter().chain([&**left]).map(|argument| self.expr(argument));
                     let arguments = arguments.collect::<Result<_>>()?;
                     CodeKind::Call(Box::new(self.expr(callee)?), arguments)
                 }
@@ -305,7 +316,8 @@ impl<'a> Compiler<'a> {
         let (callee, arguments) = application(expr);
         let code = self.expr(callee)?;
         if let (CodeKind::Constant(Value::Function(function)), [argument]) = (&code.kind, &arguments[..])
-            && let (FunctionKind::Constructor(constructor), ExprKind::Record(fields)) = (&function.kind, &argument.kind)
+            && let (FunctionKind::Constructor(constructor), ExprKind::Record(fields)) =
+                (&function.kind, &argument.kind)
         {
             let known = |f: &ast::FieldValue| constructor.field(&f.name.text).map(|(place, _)| place);
             let places: Option<Vec<usize>> = fields.iter().map(known).collect();
@@ -352,14 +364,18 @@ impl<'a> Compiler<'a> {
             captures = self.scopes.pop().map(|scope| scope.captures).unwrap_or_default();
             compiled.push(Arc::new(function?));
         }
-        Ok(Lambda { functions: compiled.into(), captures: captures.into_iter().map(|(_, from)| from).collect() })
+        Ok(Lambda {
+            functions: compiled.into(),
+            captures: captures.into_iter().map(|(_, from)| from).collect(),
+        })
     }
 
     /// The bindings of a `let` in an order in which each comes after what it needs; they stay in scope.
     fn bindings(&mut self, bindings: &[Definition]) -> Result<Vec<Binding>> {
         let mut code = Vec::new();
         for component in super::order::components(bindings) {
-            let members: Vec<&Definition> = component.members.iter().filter_map(|i| bindings.get(*i)).collect();
+            let members: Vec<&Definition> =
+                component.members.iter().filter_map(|i| bindings.get(*i)).collect();
             let functions = members.iter().all(|definition| !definition.parameters.is_empty());
             match &members[..] {
                 [single] if single.parameters.is_empty() => {
@@ -384,7 +400,9 @@ impl<'a> Compiler<'a> {
                 }
                 members => {
                     let value = members.iter().find(|definition| definition.parameters.is_empty());
-                    return Err(value.map_or_else(|| internal(Span::at(0), "an empty group"), |d| needs_itself(d)));
+                    return Err(
+                        value.map_or_else(|| internal(Span::at(0), "an empty group"), |d| needs_itself(d))
+                    );
                 }
             }
         }

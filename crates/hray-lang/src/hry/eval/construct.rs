@@ -11,7 +11,9 @@ use crate::hry::program::listed;
 use crate::hry::sources::STANDARD_BASE;
 use crate::hry::syntax;
 use glam::DVec3;
-use hray_core::{Camera, Cuboid, Light, OrthographicCamera, PerspectiveCamera, Plane, Rgb, Shape, Sphere, WindowCamera};
+use hray_core::{
+    Camera, Cuboid, Light, OrthographicCamera, PerspectiveCamera, Plane, Rgb, Shape, Sphere, WindowCamera,
+};
 use std::sync::Arc;
 
 /// The fields of a constructor, given or by default, while something is made of them.
@@ -83,14 +85,20 @@ impl<'a> Machine<'a> {
     }
 
     /// The value of a field's default.
-    pub(super) fn default_value(&mut self, constructor: &'static Constructor, place: usize, span: Span) -> Outcome<Value> {
+    pub(super) fn default_value(
+        &mut self,
+        constructor: &'static Constructor,
+        place: usize,
+        span: Span,
+    ) -> Outcome<Value> {
         if let Some(value) = self.defaults.get(&(constructor.name, place)) {
             return Ok(value.clone());
         }
         let field = constructor.fields.get(place).and_then(|field| field.default);
         let text = field.ok_or_else(|| internal(span, "a default that is not there"))?;
         let module = syntax::parse(&format!("value = {text}"), STANDARD_BASE).module();
-        let definition = module.definitions.first().ok_or_else(|| internal(span, "a default that cannot be read"))?;
+        let definition =
+            module.definitions.first().ok_or_else(|| internal(span, "a default that cannot be read"))?;
         // Names in it are those of the library, which the modules of the library see.
         let code = Compiler::new(self.program, 0, &mut self.symbols).expression(&definition.body)?;
         let graph = self.graph.take();
@@ -126,7 +134,10 @@ impl<'a> Machine<'a> {
         let complain = |wanted: String| {
             Diagnostic::error(
                 "out-of-range",
-                format!("the field `{}` of `{}` is {wanted}, and this is {shown}", field.name, constructor.name),
+                format!(
+                    "the field `{}` of `{}` is {wanted}, and this is {shown}",
+                    field.name, constructor.name
+                ),
                 span,
                 format!("{wanted} is expected"),
             )
@@ -142,7 +153,8 @@ impl<'a> Machine<'a> {
             Range::Between(low, high) if numbers.iter().any(|n| *n <= low || *n >= high) => {
                 let degrees = |v: f64| (v.to_degrees() * 1e6).round() / 1e6;
                 Some(if field.unit == "radians" {
-                    let error = complain(format!("an angle between {}deg and {}deg", degrees(low), degrees(high)));
+                    let error =
+                        complain(format!("an angle between {}deg and {}deg", degrees(low), degrees(high)));
                     error.with_help("angles are in radians; write `35deg` for degrees")
                 } else {
                     complain(format!("between {low} and {high}"))
@@ -206,14 +218,17 @@ impl<'m, 'a> Fields<'m, 'a> {
         let (place, field) = self.place(name)?;
         if let Some(Some(given)) = self.given.get(place) {
             let (value, span) = (given.value.clone(), given.span);
-            if field.range != Range::Any || matches!(field.kind, FieldType::Number | FieldType::Vec2 | FieldType::Vec3) {
+            if field.range != Range::Any
+                || matches!(field.kind, FieldType::Number | FieldType::Vec2 | FieldType::Vec3)
+            {
                 self.machine.check(self.constructor, field, &value, span)?;
             }
             return Ok((value, span));
         }
         if field.default.is_none() {
             let message = format!("`{}` needs the field `{name}`", self.constructor.name);
-            let error = Diagnostic::error("missing-field", message, self.span, format!("`{name}` is missing"));
+            let error =
+                Diagnostic::error("missing-field", message, self.span, format!("`{name}` is missing"));
             return Err(Failure::new(error.with_help(format!("for example: {}", self.constructor.example))));
         }
         Ok((self.machine.default_value(self.constructor, place, self.span)?, self.span))
@@ -231,7 +246,9 @@ impl<'m, 'a> Fields<'m, 'a> {
             Value::Vec3(v) | Value::Color(v) => Ok(v),
             // A number for a grey.
             Value::Number(n) => Ok([n; 3]),
-            Value::Symbolic(_) => Err(depends_on_hit(&format!("the field `{name}` of `{}`", self.constructor.name), span)),
+            Value::Symbolic(_) => {
+                Err(depends_on_hit(&format!("the field `{name}` of `{}`", self.constructor.name), span))
+            }
             other => Err(internal(span, &format!("{} in the field `{name}`", other.describe())).into()),
         }
     }
@@ -248,7 +265,9 @@ impl<'m, 'a> Fields<'m, 'a> {
         let (value, span) = self.value(name)?;
         match value {
             Value::Vec2(v) => Ok(v),
-            Value::Symbolic(_) => Err(depends_on_hit(&format!("the field `{name}` of `{}`", self.constructor.name), span)),
+            Value::Symbolic(_) => {
+                Err(depends_on_hit(&format!("the field `{name}` of `{}`", self.constructor.name), span))
+            }
             other => Err(internal(span, &format!("{} in the field `{name}`", other.describe())).into()),
         }
     }
@@ -259,7 +278,9 @@ impl<'m, 'a> Fields<'m, 'a> {
             _ => None,
         };
         let shape = match self.constructor.name {
-            "sphere" => Shape::Sphere(Sphere { radius: self.number("radius")?, center: self.vector("center")? }),
+            "sphere" => {
+                Shape::Sphere(Sphere { radius: self.number("radius")?, center: self.vector("center")? })
+            }
             "plane" => {
                 // The thesis writes n · p + d = 0.
                 let offset = 0.0 - self.number("offset")?;
@@ -330,11 +351,14 @@ impl<'m, 'a> Fields<'m, 'a> {
         // What is left of `up` at right angles to the line of sight must be more than rounding.
         if across.dot(across) <= 1e-24 * (to - from).dot(to - from) * up.dot(up) {
             let message = "`up` points along the line of sight, so it does not say which way is up";
-            let error = Diagnostic::error("no-direction", message, self.span, "this camera looks along its `up`");
+            let error =
+                Diagnostic::error("no-direction", message, self.span, "this camera looks along its `up`");
             return Err(Failure::new(error.with_help("give another `up`, for example `up = (0, 0, -1)`")));
         }
         let camera = match self.constructor.name {
-            "perspective" => Camera::Perspective(PerspectiveCamera { from, to, up, fov: self.number("fov")? }),
+            "perspective" => {
+                Camera::Perspective(PerspectiveCamera { from, to, up, fov: self.number("fov")? })
+            }
             "orthographic" => {
                 Camera::Orthographic(OrthographicCamera { from, to, up, height: self.number("height")? })
             }

@@ -1,13 +1,15 @@
 //! The evaluator: code and values to values.
 
-use super::code::{Binding, Capture, Code, CodeKind, FieldName, FunctionCode, Lambda, Pattern, QualifierCode, RangeCode};
+use super::code::{
+    Binding, Capture, Code, CodeKind, FieldName, FunctionCode, Lambda, Pattern, QualifierCode, RangeCode,
+};
 use super::compile::{Compiler, Symbols, internal};
 use super::failure::{Failure, Outcome};
 use super::limits::{Limits, Meter};
 use super::scalar::{assemble, parts, truth};
 use super::value::{
-    Closure, ClosureGroup, FunctionKind, FunctionValue, HitValue, Kind, ListValue, RecordValue, Scalar, Symbol, TextValue,
-    Value,
+    Closure, ClosureGroup, FunctionKind, FunctionValue, HitValue, Kind, ListValue, RecordValue, Scalar,
+    Symbol, TextValue, Value,
 };
 use crate::diagnostic::{Diagnostic, Span};
 use crate::hry::assets::Assets;
@@ -117,8 +119,13 @@ impl<'a> Machine<'a> {
     fn out_of_steps(&self, span: Span) -> Box<Failure> {
         let message = format!("the scene takes more than {} steps to work out", grouped(self.limits.steps));
         Failure::new(
-            Diagnostic::error("too-many-steps", message, span, "this is where it was when the budget ran out")
-                .with_help("look for a recursion that does not end; or raise the budget with `--eval-steps`"),
+            Diagnostic::error(
+                "too-many-steps",
+                message,
+                span,
+                "this is where it was when the budget ran out",
+            )
+            .with_help("look for a recursion that does not end; or raise the budget with `--eval-steps`"),
         )
     }
 
@@ -170,15 +177,23 @@ impl<'a> Machine<'a> {
         let mut circle: Vec<String> = self.running.iter().skip(start).map(|running| name(*running)).collect();
         circle.push(name((module, index)));
         let message = format!("`{}` needs itself", name((module, index)));
-        let mut error = Diagnostic::error("needs-itself", message, span, "needed here to work out its own value");
+        let mut error =
+            Diagnostic::error("needs-itself", message, span, "needed here to work out its own value");
         if circle.len() > 2 {
             error = error.with_note(format!("the circle: {}", circle.join(" -> ")));
         }
-        Failure::new(error.with_help("only functions may use themselves; give one of them a parameter, or break the circle"))
+        Failure::new(error.with_help(
+            "only functions may use themselves; give one of them a parameter, or break the circle",
+        ))
     }
 
     /// Evaluates code that stands alone, or a definition without parameters.
-    pub(super) fn run(&mut self, code: &Arc<FunctionCode>, group: Option<&Arc<ClosureGroup>>, span: Span) -> Outcome<Value> {
+    pub(super) fn run(
+        &mut self,
+        code: &Arc<FunctionCode>,
+        group: Option<&Arc<ClosureGroup>>,
+        span: Span,
+    ) -> Outcome<Value> {
         let base = self.stack.len();
         self.enter(code, base, span)?;
         let result = self.guarded(|machine| machine.eval(&code.body, Frame { base, group }));
@@ -249,10 +264,12 @@ impl<'a> Machine<'a> {
             CodeKind::Local(local) => self.local(frame, *local, span),
             CodeKind::Captured(index) => Self::captured(frame, *index, span),
             CodeKind::Sibling(index) => self.sibling(frame, *index, span),
-            CodeKind::Global(module, index) => match self.globals.get(*module).and_then(|globals| globals.get(*index)) {
-                Some(GlobalState::Known(value)) => Ok(value.clone()),
-                _ => self.guarded(|machine| machine.global(*module, *index, span)),
-            },
+            CodeKind::Global(module, index) => {
+                match self.globals.get(*module).and_then(|globals| globals.get(*index)) {
+                    Some(GlobalState::Known(value)) => Ok(value.clone()),
+                    _ => self.guarded(|machine| machine.global(*module, *index, span)),
+                }
+            }
             CodeKind::Vector2(items) => {
                 let [x, y] = &**items;
                 let (x, y) = (self.number(x, frame)?, self.number(y, frame)?);
@@ -377,7 +394,9 @@ impl<'a> Machine<'a> {
             Value::Number(n) => Ok(Scalar::Known(n)),
             Value::Bool(b) => Ok(truth(b)),
             Value::Symbolic(symbolic) if symbolic.kind.len() == 1 => Ok(symbolic.parts[0]),
-            other => Err(internal(code.span, &format!("{} where a number is needed", other.describe())).into()),
+            other => {
+                Err(internal(code.span, &format!("{} where a number is needed", other.describe())).into())
+            }
         }
     }
 
@@ -402,7 +421,8 @@ impl<'a> Machine<'a> {
     /// A list, where it is not too long.
     pub(super) fn list(&mut self, items: Vec<Value>, span: Span) -> Outcome<Value> {
         self.check_length(items.len(), span)?;
-        let bytes = (items.capacity() * size_of::<Value>()) as u64 + items.iter().map(Value::owned_bytes).sum::<u64>();
+        let bytes = (items.capacity() * size_of::<Value>()) as u64
+            + items.iter().map(Value::owned_bytes).sum::<u64>();
         let nesting = items.iter().map(Value::nesting).max().unwrap_or(0);
         let charge = self.meter.charge(bytes);
         self.check_memory(span)?;
@@ -413,7 +433,11 @@ impl<'a> Machine<'a> {
         if length <= self.limits.list {
             return Ok(());
         }
-        let message = format!("the list at {} grew past {} elements", self.place(span), grouped(self.limits.list as u64));
+        let message = format!(
+            "the list at {} grew past {} elements",
+            self.place(span),
+            grouped(self.limits.list as u64)
+        );
         Err(Failure::new(
             Diagnostic::error("list-too-long", message, span, "this list")
                 .with_help("make fewer elements; or raise the budget with `--eval-list`"),
@@ -424,10 +448,16 @@ impl<'a> Machine<'a> {
         if self.meter.used() <= self.limits.memory {
             return Ok(());
         }
-        let message = format!("the values of the scene take more than {} MiB", grouped(self.limits.memory >> 20));
+        let message =
+            format!("the values of the scene take more than {} MiB", grouped(self.limits.memory >> 20));
         Err(Failure::new(
-            Diagnostic::error("too-much-memory", message, span, "this is what was made when the budget ran out")
-                .with_help("make less at a time; or raise the budget with `--eval-memory`"),
+            Diagnostic::error(
+                "too-much-memory",
+                message,
+                span,
+                "this is what was made when the budget ran out",
+            )
+            .with_help("make less at a time; or raise the budget with `--eval-memory`"),
         ))
     }
 
@@ -444,7 +474,12 @@ impl<'a> Machine<'a> {
                 Scalar::Known(value) if value.is_finite() => Ok(value),
                 Scalar::Known(value) => {
                     let message = format!("a range cannot have the bound {value}");
-                    Err(Failure::new(Diagnostic::error("range-bound", message, code.span, "not a finite number")))
+                    Err(Failure::new(Diagnostic::error(
+                        "range-bound",
+                        message,
+                        code.span,
+                        "not a finite number",
+                    )))
                 }
                 Scalar::Node(_) => Err(depends_on_hit("the length of a list", code.span)),
             }
@@ -593,7 +628,13 @@ impl<'a> Machine<'a> {
     }
 
     /// Whether a value fits a pattern; the names of the pattern are bound as far as it does.
-    fn matches(&mut self, pattern: &Pattern, value: &Value, frame: Frame<'_>, span: Span) -> Outcome<Matched> {
+    fn matches(
+        &mut self,
+        pattern: &Pattern,
+        value: &Value,
+        frame: Frame<'_>,
+        span: Span,
+    ) -> Outcome<Matched> {
         let equal = |scalar| match scalar {
             Scalar::Known(0.0) => Matched::No,
             Scalar::Known(_) => Matched::Yes,
@@ -608,17 +649,26 @@ impl<'a> Machine<'a> {
             Pattern::Number(n) => return self.equal(&Value::Number(*n), value, span).map(equal),
             Pattern::Bool(b) => return self.equal(&Value::Bool(*b), value, span).map(equal),
             Pattern::Text(text) => {
-                return Ok(if matches!(value, Value::Text(v) if *v.text == **text) { Matched::Yes } else { Matched::No });
+                return Ok(if matches!(value, Value::Text(v) if *v.text == **text) {
+                    Matched::Yes
+                } else {
+                    Matched::No
+                });
             }
             Pattern::Vector(items) => {
-                let (_, parts) = parts(value).ok_or_else(|| internal(span, "a vector pattern for something else"))?;
+                let (_, parts) =
+                    parts(value).ok_or_else(|| internal(span, "a vector pattern for something else"))?;
                 items.iter().zip(parts.map(|part| assemble(Kind::Number, [part; 3]))).collect()
             }
             Pattern::List { items, rest } => {
                 let Value::List(list) = value else {
                     return Err(internal(span, "a list pattern for something else").into());
                 };
-                let fits = if rest.is_some() { list.items.len() >= items.len() } else { list.items.len() == items.len() };
+                let fits = if rest.is_some() {
+                    list.items.len() >= items.len()
+                } else {
+                    list.items.len() == items.len()
+                };
                 if !fits {
                     return Ok(Matched::No);
                 }
@@ -631,9 +681,10 @@ impl<'a> Machine<'a> {
                 }
                 items.iter().zip(list.items.iter().cloned()).collect()
             }
-            Pattern::Record(fields) => {
-                fields.iter().map(|(_, name, p)| Ok((p, Self::field(value, name, span)?))).collect::<Outcome<_>>()?
-            }
+            Pattern::Record(fields) => fields
+                .iter()
+                .map(|(_, name, p)| Ok((p, Self::field(value, name, span)?)))
+                .collect::<Outcome<_>>()?,
         };
         let mut all = Scalar::Known(1.0);
         for (pattern, value) in inner {
@@ -646,7 +697,13 @@ impl<'a> Machine<'a> {
         Ok(equal(all))
     }
 
-    fn arms(&mut self, subject: &Value, arms: &[(Pattern, Code)], frame: Frame<'_>, span: Span) -> Outcome<Value> {
+    fn arms(
+        &mut self,
+        subject: &Value,
+        arms: &[(Pattern, Code)],
+        frame: Frame<'_>,
+        span: Span,
+    ) -> Outcome<Value> {
         let mut depends: Vec<(Scalar, Value)> = Vec::new();
         let mut result = None;
         for (pattern, body) in arms {
@@ -668,7 +725,8 @@ impl<'a> Machine<'a> {
             let message = "no case of this `match` fits";
             let found = format!("this is {}", self.show(subject, 40));
             return Err(Failure::new(
-                Diagnostic::error("no-match", message, span, found).with_help("add a last case `_ -> ...` for all others"),
+                Diagnostic::error("no-match", message, span, found)
+                    .with_help("add a last case `_ -> ...` for all others"),
             ));
         };
         for (on, value) in depends.into_iter().rev() {
@@ -678,7 +736,13 @@ impl<'a> Machine<'a> {
     }
 
     /// `{ record | field = value }`.
-    fn update(&mut self, record: &Code, fields: &[(Symbol, Code)], frame: Frame<'_>, span: Span) -> Outcome<Value> {
+    fn update(
+        &mut self,
+        record: &Code,
+        fields: &[(Symbol, Code)],
+        frame: Frame<'_>,
+        span: Span,
+    ) -> Outcome<Value> {
         match self.eval(record, frame)? {
             Value::Record(record) => {
                 let mut values = record.values.clone();
@@ -687,7 +751,9 @@ impl<'a> Machine<'a> {
                     let place = record.names.iter().position(|n| n == name);
                     match place.and_then(|place| values.get_mut(place)) {
                         Some(slot) => *slot = value,
-                        None => return Err(internal(code.span, "an update of a field that is not there").into()),
+                        None => {
+                            return Err(internal(code.span, "an update of a field that is not there").into());
+                        }
                     }
                 }
                 Ok(Value::Record(Arc::new(RecordValue { names: record.names.clone(), values })))
@@ -696,14 +762,19 @@ impl<'a> Machine<'a> {
                 let mut hit = *hit;
                 for (name, code) in fields {
                     let value = self.eval(code, frame)?;
-                    let (_, value) = parts(&value).ok_or_else(|| internal(code.span, "a hit of something else"))?;
+                    let (_, value) =
+                        parts(&value).ok_or_else(|| internal(code.span, "a hit of something else"))?;
                     match self.symbols.name(*name) {
                         "p" => hit.p = value,
                         "world" => hit.world = value,
                         "normal" => hit.normal = value,
                         "uv" => hit.uv = [value[0], value[1]],
                         "time" => hit.time = value[0],
-                        _ => return Err(internal(code.span, "an update of a field that a hit does not have").into()),
+                        _ => {
+                            return Err(
+                                internal(code.span, "an update of a field that a hit does not have").into()
+                            );
+                        }
                     }
                 }
                 Ok(Value::Hit(Arc::new(hit)))
@@ -713,7 +784,9 @@ impl<'a> Machine<'a> {
     }
 
     fn field(record: &Value, name: &FieldName, span: Span) -> Outcome<Value> {
-        let missing = || -> Box<Failure> { internal(span, &format!("a field `{}` that is not there", name.text)).into() };
+        let missing = || -> Box<Failure> {
+            internal(span, &format!("a field `{}` that is not there", name.text)).into()
+        };
         match record {
             Value::Record(record) => record.get(name.symbol).cloned().ok_or_else(missing),
             Value::Hit(hit) => {
@@ -728,7 +801,9 @@ impl<'a> Machine<'a> {
                 })
             }
             value => {
-                let (Some((_, parts)), Some(places)) = (parts(value), &name.parts) else { return Err(missing()) };
+                let (Some((_, parts)), Some(places)) = (parts(value), &name.parts) else {
+                    return Err(missing());
+                };
                 let mut picked = [Scalar::Known(0.0); 3];
                 for (slot, place) in picked.iter_mut().zip(places) {
                     *slot = *parts.get(usize::from(*place)).ok_or_else(missing)?;
@@ -743,7 +818,13 @@ impl<'a> Machine<'a> {
         }
     }
 
-    fn operate(&mut self, operator: BinaryOperator, left: &Value, right: &Value, span: Span) -> Outcome<Value> {
+    fn operate(
+        &mut self,
+        operator: BinaryOperator,
+        left: &Value,
+        right: &Value,
+        span: Span,
+    ) -> Outcome<Value> {
         match operator {
             BinaryOperator::Equal => {
                 let equal = self.equal(left, right, span)?;
@@ -754,9 +835,10 @@ impl<'a> Machine<'a> {
                 let not = self.unary(Unary::Not, equal, span)?;
                 Ok(assemble(Kind::Bool, [not; 3]))
             }
-            BinaryOperator::Less | BinaryOperator::LessEqual | BinaryOperator::Greater | BinaryOperator::GreaterEqual => {
-                self.comparison(operator, left, right, span)
-            }
+            BinaryOperator::Less
+            | BinaryOperator::LessEqual
+            | BinaryOperator::Greater
+            | BinaryOperator::GreaterEqual => self.comparison(operator, left, right, span),
             BinaryOperator::Append => match (left, right) {
                 (Value::List(left), Value::List(right)) => {
                     self.check_length(left.items.len().saturating_add(right.items.len()), span)?;
@@ -810,7 +892,8 @@ impl<'a> Machine<'a> {
             }
             _ => {}
         }
-        let arguments = arguments.iter().map(|argument| self.eval(argument, frame)).collect::<Outcome<Vec<_>>>()?;
+        let arguments =
+            arguments.iter().map(|argument| self.eval(argument, frame)).collect::<Outcome<Vec<_>>>()?;
         self.apply(&function, &arguments, span)
     }
 
@@ -845,7 +928,12 @@ impl<'a> Machine<'a> {
 
     /// Calls a function with any number of arguments: fewer than it takes give a function of the rest, more go on to its
     /// result.
-    pub(super) fn apply(&mut self, function: &Arc<FunctionValue>, arguments: &[Value], span: Span) -> Outcome<Value> {
+    pub(super) fn apply(
+        &mut self,
+        function: &Arc<FunctionValue>,
+        arguments: &[Value],
+        span: Span,
+    ) -> Outcome<Value> {
         let arity = function.arity();
         if arguments.len() < arity {
             let nesting = arguments.iter().map(Value::nesting).fold(function.nesting, u32::max) + 1;
@@ -863,7 +951,12 @@ impl<'a> Machine<'a> {
         }
     }
 
-    fn apply_exactly(&mut self, function: &Arc<FunctionValue>, arguments: &[Value], span: Span) -> Outcome<Value> {
+    fn apply_exactly(
+        &mut self,
+        function: &Arc<FunctionValue>,
+        arguments: &[Value],
+        span: Span,
+    ) -> Outcome<Value> {
         match &function.kind {
             FunctionKind::Closure(closure) => {
                 let code = closure.group.functions.get(closure.index);
@@ -905,7 +998,12 @@ impl<'a> Machine<'a> {
     }
 
     /// Calls a value that is a function.
-    pub(super) fn apply_value(&mut self, function: &Value, arguments: &[Value], span: Span) -> Outcome<Value> {
+    pub(super) fn apply_value(
+        &mut self,
+        function: &Value,
+        arguments: &[Value],
+        span: Span,
+    ) -> Outcome<Value> {
         match function {
             Value::Function(function) => self.guarded(|machine| machine.apply(function, arguments, span)),
             other => Err(internal(span, &format!("a call of {}", other.describe())).into()),
@@ -921,7 +1019,9 @@ impl FunctionValue {
                 closure.group.functions.get(closure.index).map_or(1, |code| code.parameters.len())
             }
             FunctionKind::Native(native) => super::natives::arity(*native),
-            FunctionKind::Partial { function, arguments } => function.arity().saturating_sub(arguments.len()).max(1),
+            FunctionKind::Partial { function, arguments } => {
+                function.arity().saturating_sub(arguments.len()).max(1)
+            }
             FunctionKind::Constructor(_)
             | FunctionKind::Compose(..)
             | FunctionKind::Placed { .. }

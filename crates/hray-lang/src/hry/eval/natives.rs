@@ -4,9 +4,7 @@ use super::compile::internal;
 use super::failure::{Failure, Outcome};
 use super::machine::{Machine, depends_on_hit};
 use super::scalar::{assemble, parts};
-use super::value::{
-    HitValue, Kind, RecordValue, Scalar, ShapeNode, ShapeValue, Symbol, Value,
-};
+use super::value::{HitValue, Kind, RecordValue, Scalar, ShapeNode, ShapeValue, Symbol, Value};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::hry::ast::BinaryOperator;
 use crate::hry::library::Native;
@@ -28,10 +26,45 @@ pub(super) const fn arity(native: Native) -> usize {
     use Native as N;
     match native {
         N::Whitted | N::Classic2005 | N::Srgb | N::Raw => 0,
-        N::Sin | N::Cos | N::Tan | N::Asin | N::Acos | N::Atan | N::Sqrt | N::Exp | N::Ln | N::Abs | N::Floor | N::Ceil
-        | N::Round | N::Image | N::Aspect | N::Count | N::Reverse | N::Concat | N::Show | N::Group => 1,
-        N::Atan2 | N::Min | N::Max | N::Random | N::Dot | N::Perlin | N::Perlin1985 | N::Cells | N::Pixel | N::Alpha
-        | N::At | N::Sort | N::Union | N::Intersection | N::Difference | N::Paint | N::Translate | N::Scale | N::Stretch
+        N::Sin
+        | N::Cos
+        | N::Tan
+        | N::Asin
+        | N::Acos
+        | N::Atan
+        | N::Sqrt
+        | N::Exp
+        | N::Ln
+        | N::Abs
+        | N::Floor
+        | N::Ceil
+        | N::Round
+        | N::Image
+        | N::Aspect
+        | N::Count
+        | N::Reverse
+        | N::Concat
+        | N::Show
+        | N::Group => 1,
+        N::Atan2
+        | N::Min
+        | N::Max
+        | N::Random
+        | N::Dot
+        | N::Perlin
+        | N::Perlin1985
+        | N::Cells
+        | N::Pixel
+        | N::Alpha
+        | N::At
+        | N::Sort
+        | N::Union
+        | N::Intersection
+        | N::Difference
+        | N::Paint
+        | N::Translate
+        | N::Scale
+        | N::Stretch
         | N::Matrix => 2,
         N::Rgb | N::Fold | N::Rotate => 3,
         N::Iterate => 4,
@@ -74,7 +107,8 @@ impl Machine<'_> {
                 self.image(&path, span)
             }
             (N::Pixel | N::Alpha, [Value::Image(image), uv]) => {
-                let (_, [u, v, _]) = parts(uv).ok_or_else(|| internal(span, "an image looked up by something else"))?;
+                let (_, [u, v, _]) =
+                    parts(uv).ok_or_else(|| internal(span, "an image looked up by something else"))?;
                 let results = self.block(Block::Image(image.clone()), &[u, v], span)?;
                 Ok(match (native, &results[..]) {
                     (N::Pixel, [r, g, b, ..]) => assemble(Kind::Color, [*r, *g, *b]),
@@ -97,12 +131,13 @@ impl Machine<'_> {
             (N::At, [index, Value::List(list)]) => {
                 let index = self.known(index, "which element of a list this is", span)?;
                 let place = (index >= 0.0 && index.fract() == 0.0).then_some(index as usize);
-                place.and_then(|place| list.items.get(place)).cloned().ok_or_else(|| no_element(index, list.items.len(), span))
+                place
+                    .and_then(|place| list.items.get(place))
+                    .cloned()
+                    .ok_or_else(|| no_element(index, list.items.len(), span))
             }
             (N::Sort, [key, Value::List(list)]) => self.sort(key, &list.items, span),
-            (N::Reverse, [Value::List(list)]) => {
-                self.list(list.items.iter().rev().cloned().collect(), span)
-            }
+            (N::Reverse, [Value::List(list)]) => self.list(list.items.iter().rev().cloned().collect(), span),
             (N::Concat, [Value::List(list)]) => {
                 let mut all = Vec::new();
                 for inner in &list.items {
@@ -139,7 +174,9 @@ impl Machine<'_> {
                 let node = ShapeNode::Painted { material: material.clone(), shape: shape.clone() };
                 Self::shape(node, shape.nesting, span)
             }
-            (N::Translate | N::Rotate | N::Scale | N::Stretch | N::Matrix, _) => self.transform(native, arguments, span),
+            (N::Translate | N::Rotate | N::Scale | N::Stretch | N::Matrix, _) => {
+                self.transform(native, arguments, span)
+            }
             _ => Err(internal(span, "a native function with arguments that it does not take").into()),
         }
     }
@@ -197,8 +234,13 @@ impl Machine<'_> {
             // The tables belong to the render, which may use others than hray's own.
             let message = "the noise of 1985 has no value outside of a function of a hit";
             return Err(Failure::new(
-                Diagnostic::error("no-tables", message, span, "its tables are those of the render, and not known here")
-                    .with_help("use `perlin` for shapes and placements; `perlin1985` is for textures"),
+                Diagnostic::error(
+                    "no-tables",
+                    message,
+                    span,
+                    "its tables are those of the render, and not known here",
+                )
+                .with_help("use `perlin` for shapes and placements; `perlin1985` is for textures"),
             ));
         }
         let p = [self.node(p[0], span)?, self.node(p[1], span)?, self.node(p[2], span)?];
@@ -219,7 +261,8 @@ impl Machine<'_> {
         let [nearest, second, id, x, y, z] = results[..] else {
             return Err(internal(span, "cells without all of their results").into());
         };
-        let names: Arc<[Symbol]> = ["nearest", "second", "id", "toward"].map(|name| self.symbols.number(name)).into();
+        let names: Arc<[Symbol]> =
+            ["nearest", "second", "id", "toward"].map(|name| self.symbols.number(name)).into();
         let number = |scalar| assemble(Kind::Number, [scalar; 3]);
         let values = vec![number(nearest), number(second), number(id), assemble(Kind::Vec3, [x, y, z])];
         Ok(Value::Record(Arc::new(RecordValue { names, values })))
@@ -271,7 +314,14 @@ impl Machine<'_> {
     }
 
     /// `iterate max until step start`.
-    fn iterate(&mut self, max: &Value, until: &Value, step: &Value, start: &Value, span: Span) -> Outcome<Value> {
+    fn iterate(
+        &mut self,
+        max: &Value,
+        until: &Value,
+        step: &Value,
+        start: &Value,
+        span: Span,
+    ) -> Outcome<Value> {
         let max = self.known(max, "how often a loop goes round at most", span)?;
         if max.fract() != 0.0 || !(0.0..=9e15).contains(&max) {
             let message = format!("`iterate` goes round a whole number of times, and {max} is none");
@@ -293,9 +343,17 @@ impl Machine<'_> {
     }
 
     /// The rest of a loop, from where its end depends on the hit.
-    fn loop_on_hit(&mut self, max: f64, until: &Value, step: &Value, start: &Value, span: Span) -> Outcome<Value> {
+    fn loop_on_hit(
+        &mut self,
+        max: f64,
+        until: &Value,
+        step: &Value,
+        start: &Value,
+        span: Span,
+    ) -> Outcome<Value> {
         if max > LONGEST_LOOP {
-            let message = format!("a loop whose end depends on the hit may go round {LONGEST_LOOP} times at most");
+            let message =
+                format!("a loop whose end depends on the hit may go round {LONGEST_LOOP} times at most");
             return Err(Failure::new(Diagnostic::error("iterate-max", message, span, "in this call")));
         }
         let mut initial = Vec::new();
@@ -314,7 +372,8 @@ impl Machine<'_> {
         };
         let results = self.build(span, |graph| graph.end_loop(max as u32, &initial, until, &next))?;
         let mut results = results.into_iter().map(|node| self.scalar(node)).collect::<Vec<_>>().into_iter();
-        self.rebuild(start, &mut results).ok_or_else(|| internal(span, "a loop without all of its results").into())
+        self.rebuild(start, &mut results)
+            .ok_or_else(|| internal(span, "a loop without all of its results").into())
     }
 
     fn loop_body(
@@ -326,7 +385,8 @@ impl Machine<'_> {
         span: Span,
     ) -> Outcome<(NodeId, Vec<NodeId>)> {
         let mut scalars = arguments.iter().map(|node| Scalar::Node(*node));
-        let state = self.rebuild(start, &mut scalars).ok_or_else(|| internal(span, "a loop without a state"))?;
+        let state =
+            self.rebuild(start, &mut scalars).ok_or_else(|| internal(span, "a loop without a state"))?;
         let done = self.apply_value(until, std::slice::from_ref(&state), span)?;
         let done = Self::scalar_of(&done, span)?;
         let done = self.node(done, span)?;
@@ -335,9 +395,12 @@ impl Machine<'_> {
         flatten(&next, &mut flat).ok_or_else(|| not_a_state(&next, span))?;
         if flat.len() != arguments.len() {
             let message = "the state of this loop changes its size";
-            return Err(Failure::new(
-                Diagnostic::error("loop-state", message, span, "the step gives a list of another length than it gets"),
-            ));
+            return Err(Failure::new(Diagnostic::error(
+                "loop-state",
+                message,
+                span,
+                "the step gives a list of another length than it gets",
+            )));
         }
         let next = flat.into_iter().map(|s| self.node(s, span)).collect::<Outcome<_>>()?;
         Ok((done, next))
@@ -354,11 +417,13 @@ impl Machine<'_> {
         }
         match like {
             Value::Record(record) => {
-                let values = record.values.iter().map(|value| self.rebuild(value, scalars)).collect::<Option<_>>()?;
+                let values =
+                    record.values.iter().map(|value| self.rebuild(value, scalars)).collect::<Option<_>>()?;
                 Some(Value::Record(Arc::new(RecordValue { names: record.names.clone(), values })))
             }
             Value::List(list) => {
-                let items = list.items.iter().map(|value| self.rebuild(value, scalars)).collect::<Option<_>>()?;
+                let items =
+                    list.items.iter().map(|value| self.rebuild(value, scalars)).collect::<Option<_>>()?;
                 self.list(items, Span::at(0)).ok()
             }
             _ => None,
@@ -377,16 +442,23 @@ impl Machine<'_> {
         if nesting > DEEPEST_SHAPE {
             let message = format!("shapes are nested more than {DEEPEST_SHAPE} deep");
             return Err(Failure::new(
-                Diagnostic::error("nested-too-deeply", message, span, "one too many here")
-                    .with_help("join pairs of shapes, then pairs of these, and so on, instead of adding one at a time"),
+                Diagnostic::error("nested-too-deeply", message, span, "one too many here").with_help(
+                    "join pairs of shapes, then pairs of these, and so on, instead of adding one at a time",
+                ),
             ));
         }
         Ok(Value::Shape(Arc::new(ShapeValue { node, nesting })))
     }
 
     /// A hit as a moved function sees it: taken back by the inverse of the move.
-    pub(super) fn moved(&mut self, hit: &HitValue, inverse: &glam::DAffine3, span: Span) -> Outcome<HitValue> {
-        let columns = [inverse.matrix3.x_axis, inverse.matrix3.y_axis, inverse.matrix3.z_axis].map(|c| c.to_array());
+    pub(super) fn moved(
+        &mut self,
+        hit: &HitValue,
+        inverse: &glam::DAffine3,
+        span: Span,
+    ) -> Outcome<HitValue> {
+        let columns =
+            [inverse.matrix3.x_axis, inverse.matrix3.y_axis, inverse.matrix3.z_axis].map(|c| c.to_array());
         let origin = inverse.translation.to_array();
         let mut point = |p: [Scalar; 3]| -> Outcome<[Scalar; 3]> {
             let mut result = [Scalar::Known(0.0); 3];
@@ -506,7 +578,8 @@ fn flatten(value: &Value, into: &mut Vec<Scalar>) -> Option<()> {
 }
 
 fn not_a_state(value: &Value, span: Span) -> Box<Failure> {
-    let message = format!("the state of a loop whose end depends on the hit cannot hold {}", value.describe());
+    let message =
+        format!("the state of a loop whose end depends on the hit cannot hold {}", value.describe());
     Failure::new(
         Diagnostic::error("loop-state", message, span, "in this loop")
             .with_help("it may hold numbers, truth values, vectors, colours, and records and lists of these"),
@@ -517,7 +590,10 @@ fn no_element(index: f64, count: usize, span: Span) -> Box<Failure> {
     let message = match count {
         0 => format!("there is no element {index} in an empty list"),
         1 => format!("there is no element {index} in a list of one; its only element is number 0"),
-        _ => format!("there is no element {index} in a list of {count}; they are counted from 0 to {}", count - 1),
+        _ => format!(
+            "there is no element {index} in a list of {count}; they are counted from 0 to {}",
+            count - 1
+        ),
     };
     Failure::new(Diagnostic::error("no-element", message, span, "asked for here"))
 }

@@ -30,8 +30,11 @@ pub(super) fn components(bindings: &[Definition]) -> Vec<Component> {
             let mut found = BTreeSet::new();
             mentions(&binding.body, &names, &mut found);
             let own: BTreeSet<Arc<str>> = binding.parameters.iter().flat_map(bound).collect();
-            let owners: BTreeSet<usize> =
-                found.iter().filter(|name| !own.contains(*name)).filter_map(|name| owner.get(name).copied()).collect();
+            let owners: BTreeSet<usize> = found
+                .iter()
+                .filter(|name| !own.contains(*name))
+                .filter_map(|name| owner.get(name).copied())
+                .collect();
             owners.into_iter().collect()
         })
         .collect();

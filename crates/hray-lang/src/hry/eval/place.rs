@@ -50,7 +50,9 @@ impl Machine<'_> {
 
     fn vector(&self, value: &Value, span: Span) -> Outcome<DVec3> {
         match parts(value) {
-            Some((Kind::Vec3, [Scalar::Known(x), Scalar::Known(y), Scalar::Known(z)])) => Ok(DVec3::new(x, y, z)),
+            Some((Kind::Vec3, [Scalar::Known(x), Scalar::Known(y), Scalar::Known(z)])) => {
+                Ok(DVec3::new(x, y, z))
+            }
             Some((Kind::Vec3, _)) => Err(depends_on_hit("how something is placed", span)),
             _ => Err(internal(span, &format!("{} where a vector is needed", value.describe())).into()),
         }
@@ -62,7 +64,8 @@ impl Machine<'_> {
         if length == 0.0 || !length.is_finite() {
             let message = "the axis of a rotation needs a direction";
             return Err(Failure::new(
-                Diagnostic::error("transform", message, span, "this rotation").with_help("for example `rotate up 30deg`"),
+                Diagnostic::error("transform", message, span, "this rotation")
+                    .with_help("for example `rotate up 30deg`"),
             ));
         }
         let snap = |v: f64| {
@@ -130,18 +133,22 @@ impl Machine<'_> {
             }
             Value::Light(light) => Ok(Value::Light(Arc::new(light_at(**light, transform)))),
             Value::Camera(camera) => match &**camera {
-                Camera::Perspective(c) => Ok(Value::Camera(Arc::new(Camera::Perspective(PerspectiveCamera {
-                    from: transform.transform_point3(c.from),
-                    to: transform.transform_point3(c.to),
-                    up: transform.transform_vector3(c.up),
-                    fov: c.fov,
-                })))),
-                Camera::Orthographic(c) => Ok(Value::Camera(Arc::new(Camera::Orthographic(OrthographicCamera {
-                    from: transform.transform_point3(c.from),
-                    to: transform.transform_point3(c.to),
-                    up: transform.transform_vector3(c.up),
-                    height: c.height * (transform.transform_vector3(c.up).length() / c.up.length()),
-                })))),
+                Camera::Perspective(c) => {
+                    Ok(Value::Camera(Arc::new(Camera::Perspective(PerspectiveCamera {
+                        from: transform.transform_point3(c.from),
+                        to: transform.transform_point3(c.to),
+                        up: transform.transform_vector3(c.up),
+                        fov: c.fov,
+                    }))))
+                }
+                Camera::Orthographic(c) => {
+                    Ok(Value::Camera(Arc::new(Camera::Orthographic(OrthographicCamera {
+                        from: transform.transform_point3(c.from),
+                        to: transform.transform_point3(c.to),
+                        up: transform.transform_vector3(c.up),
+                        height: c.height * (transform.transform_vector3(c.up).length() / c.up.length()),
+                    }))))
+                }
                 Camera::Window(_) => {
                     let message = "the window camera cannot be moved: its window lies in the plane z = 0";
                     Err(Failure::new(
@@ -164,7 +171,9 @@ fn light_at(light: Light, transform: &DAffine3) -> Light {
     match light {
         Light::Point { position, intensity } => Light::Point { position: point(position), intensity },
         Light::Ambient { .. } => light,
-        Light::Directional { direction, intensity } => Light::Directional { direction: unit(direction), intensity },
+        Light::Directional { direction, intensity } => {
+            Light::Directional { direction: unit(direction), intensity }
+        }
         Light::Spot { position, axis, cos_inner, cos_outer, intensity } => {
             Light::Spot { position: point(position), axis: unit(axis), cos_inner, cos_outer, intensity }
         }

@@ -136,7 +136,13 @@ impl Machine<'_> {
     }
 
     /// `a + b` and its like. Of a number and something larger, the number applies to every component.
-    pub(super) fn arithmetic(&mut self, f: BinaryOperator, a: &Value, b: &Value, span: Span) -> Outcome<Value> {
+    pub(super) fn arithmetic(
+        &mut self,
+        f: BinaryOperator,
+        a: &Value,
+        b: &Value,
+        span: Span,
+    ) -> Outcome<Value> {
         if let (Value::Number(a), Value::Number(b)) = (a, b) {
             let simple = match f {
                 BinaryOperator::Add => Some(a + b),
@@ -150,7 +156,9 @@ impl Machine<'_> {
             }
         }
         let (Some((kind_a, parts_a)), Some((kind_b, parts_b))) = (parts(a), parts(b)) else {
-            return Err(internal(span, &format!("{} and {} in arithmetic", a.describe(), b.describe())).into());
+            return Err(
+                internal(span, &format!("{} and {} in arithmetic", a.describe(), b.describe())).into()
+            );
         };
         let kind = if kind_a == Kind::Number { kind_b } else { kind_a };
         let mut result = [Scalar::Known(0.0); 3];
@@ -179,7 +187,9 @@ impl Machine<'_> {
     /// Applies a function of two numbers to every pair of components.
     pub(super) fn each_pair(&mut self, f: Binary, a: &Value, b: &Value, span: Span) -> Outcome<Value> {
         let (Some((kind_a, parts_a)), Some((kind_b, parts_b))) = (parts(a), parts(b)) else {
-            return Err(internal(span, &format!("{} and {} in arithmetic", a.describe(), b.describe())).into());
+            return Err(
+                internal(span, &format!("{} and {} in arithmetic", a.describe(), b.describe())).into()
+            );
         };
         let kind = if kind_a == Kind::Number { kind_b } else { kind_a };
         let mut result = [Scalar::Known(0.0); 3];
@@ -192,7 +202,13 @@ impl Machine<'_> {
     }
 
     /// `a < b` and its like, on numbers.
-    pub(super) fn comparison(&mut self, f: BinaryOperator, a: &Value, b: &Value, span: Span) -> Outcome<Value> {
+    pub(super) fn comparison(
+        &mut self,
+        f: BinaryOperator,
+        a: &Value,
+        b: &Value,
+        span: Span,
+    ) -> Outcome<Value> {
         let (Some((_, [a, ..])), Some((_, [b, ..]))) = (parts(a), parts(b)) else {
             return Err(internal(span, "a comparison of something else than numbers").into());
         };
@@ -223,11 +239,20 @@ impl Machine<'_> {
             (Value::List(a), Value::List(b)) => a.items.iter().zip(&b.items).collect(),
             (Value::Record(a), Value::Record(b)) => {
                 let other = |name| b.get(name);
-                a.names.iter().zip(&a.values).filter_map(|(name, value)| Some((value, other(*name)?))).collect()
+                a.names
+                    .iter()
+                    .zip(&a.values)
+                    .filter_map(|(name, value)| Some((value, other(*name)?)))
+                    .collect()
             }
             _ => {
                 let message = format!("{} cannot be compared", a.describe());
-                return Err(Failure::new(Diagnostic::error("not-comparable", message, span, "compared here")));
+                return Err(Failure::new(Diagnostic::error(
+                    "not-comparable",
+                    message,
+                    span,
+                    "compared here",
+                )));
             }
         };
         let mut all = Scalar::Known(1.0);
@@ -305,7 +330,8 @@ impl Machine<'_> {
                 let help = "only numbers, truth values, vectors, colours, and records, lists and functions of these can \
                             depend on a hit";
                 Err(Failure::new(
-                    Diagnostic::error("depends-on-hit", message, span, "the condition depends on the hit").with_help(help),
+                    Diagnostic::error("depends-on-hit", message, span, "the condition depends on the hit")
+                        .with_help(help),
                 ))
             }
         }
@@ -317,8 +343,9 @@ impl Machine<'_> {
         if nesting > DEEPEST {
             let message = format!("more than {DEEPEST} functions are put one into the other");
             return Err(Failure::new(
-                Diagnostic::error("nested-too-deeply", message, span, "one too many here")
-                    .with_help("keep the values that the functions are made of in a list, and fold over it when called"),
+                Diagnostic::error("nested-too-deeply", message, span, "one too many here").with_help(
+                    "keep the values that the functions are made of in a list, and fold over it when called",
+                ),
             ));
         }
         Ok(Value::Function(Arc::new(FunctionValue { kind, nesting })))

@@ -13,7 +13,8 @@ use crate::hry::library::{Constructor, constructor};
 use crate::hry::program::{Global, Program};
 use glam::DAffine3;
 use hray_core::{
-    Background, Csg, CsgOperation, Description, Field, Light, Material, Primitive, Resolution, Rgb, Scene, Shape, Texture,
+    Background, Csg, CsgOperation, Description, Field, Light, Material, Primitive, Resolution, Rgb, Scene,
+    Shape, Texture,
 };
 use std::collections::HashMap;
 use std::num::NonZeroU32;
@@ -65,7 +66,9 @@ impl<'a> Evaluator<'a> {
         let result = self.machine.scene();
         let mut diagnostics = std::mem::take(&mut self.machine.warnings);
         match result {
-            Ok((description, animated)) => Evaluated { description: Some(description), diagnostics, animated },
+            Ok((description, animated)) => {
+                Evaluated { description: Some(description), diagnostics, animated }
+            }
             Err(failure) => {
                 diagnostics.push(failure.into_diagnostic(|span| self.machine.place(span)));
                 Evaluated { description: None, diagnostics, animated: false }
@@ -94,7 +97,8 @@ impl Machine<'_> {
                 ));
             }
         };
-        let span = self.program.definition(module, index).map_or(Span::at(0), |definition| definition.target.span);
+        let span =
+            self.program.definition(module, index).map_or(Span::at(0), |definition| definition.target.span);
         let mut value = self.global(module, index, span)?;
         let animated = matches!(value, Value::Function(_));
         if animated {
@@ -131,7 +135,12 @@ impl Machine<'_> {
         }
     }
 
-    fn describe(&mut self, table: &'static Constructor, given: Vec<Option<Given>>, span: Span) -> Outcome<Description> {
+    fn describe(
+        &mut self,
+        table: &'static Constructor,
+        given: Vec<Option<Given>>,
+        span: Span,
+    ) -> Outcome<Description> {
         let time = self.time;
         let background = {
             let place = table.field("background").map(|(place, _)| place);
@@ -147,8 +156,9 @@ impl Machine<'_> {
         let mut fields = Fields::new(self, table, given, span);
         let [width, height] = fields.pair("size")?;
         let size_span = fields.optional("size").map_or(span, |given| given.span);
-        let resolution = Resolution::new(width as i64, height as i64)
-            .map_err(|error| Failure::new(Diagnostic::error("out-of-range", error.to_string(), size_span, "this size")))?;
+        let resolution = Resolution::new(width as i64, height as i64).map_err(|error| {
+            Failure::new(Diagnostic::error("out-of-range", error.to_string(), size_span, "this size"))
+        })?;
         let max_depth = fields.number("depth")? as i32;
         let samples = NonZeroU32::new(fields.number("samples")? as u32).unwrap_or(NonZeroU32::MIN);
         let wrong = |value: &Value| internal(span, &format!("{} in the scene", value.describe()));
@@ -188,7 +198,9 @@ impl Machine<'_> {
         let mut materials = Materials::default();
         for item in &objects.items {
             match item {
-                Value::Shape(shape) => self.flatten(shape, None, None, &mut materials, &mut primitives, span)?,
+                Value::Shape(shape) => {
+                    self.flatten(shape, None, None, &mut materials, &mut primitives, span)?
+                }
                 other => return Err(wrong(other).into()),
             }
         }
@@ -211,7 +223,12 @@ impl Machine<'_> {
             ShapeNode::Leaf { shape, material: own } => {
                 if into.len() >= MOST_PRIMITIVES {
                     let message = format!("the scene has more than {MOST_PRIMITIVES} objects");
-                    return Err(Failure::new(Diagnostic::error("too-many-objects", message, span, "this scene")));
+                    return Err(Failure::new(Diagnostic::error(
+                        "too-many-objects",
+                        message,
+                        span,
+                        "this scene",
+                    )));
                 }
                 let material = self.material_of(own.as_ref().or(material), materials)?;
                 into.push(Primitive { shape: shape.clone(), transform: transform.cloned(), material });
@@ -254,7 +271,11 @@ impl Machine<'_> {
         Ok(())
     }
 
-    fn add_operand(operand: Primitive, transform: Option<&Arc<DAffine3>>, into: &mut Vec<Primitive>) -> Outcome<()> {
+    fn add_operand(
+        operand: Primitive,
+        transform: Option<&Arc<DAffine3>>,
+        into: &mut Vec<Primitive>,
+    ) -> Outcome<()> {
         let whole = match (transform, &operand.transform) {
             (Some(outer), Some(inner)) => Some(Arc::new(**outer * **inner)),
             (Some(outer), None) => Some(outer.clone()),
@@ -293,7 +314,11 @@ impl Machine<'_> {
         Ok(all.pop())
     }
 
-    fn material_of(&mut self, value: Option<&Arc<MaterialValue>>, materials: &mut Materials) -> Outcome<Arc<Material>> {
+    fn material_of(
+        &mut self,
+        value: Option<&Arc<MaterialValue>>,
+        materials: &mut Materials,
+    ) -> Outcome<Arc<Material>> {
         let Some(value) = value else {
             let plain = || Arc::new(Material::matte(Texture::Solid(Rgb::new(1.0, 1.0, 1.0))));
             return Ok(materials.plain.get_or_insert_with(plain).clone());
@@ -308,7 +333,8 @@ impl Machine<'_> {
     }
 
     fn compile_material(&mut self, value: &MaterialValue) -> Outcome<Material> {
-        let table = constructor("classic").ok_or_else(|| internal(value.span, "a table without `classic`"))?;
+        let table =
+            constructor("classic").ok_or_else(|| internal(value.span, "a table without `classic`"))?;
         let given = |name: &str| {
             let (place, _) = table.field(name)?;
             value.fields.get(place)?.clone()

@@ -22,9 +22,8 @@ pub(super) enum Compiled {
 impl Machine<'_> {
     /// The hit, all of whose parts are inputs.
     fn hit(&mut self, span: Span) -> Outcome<HitValue> {
-        let mut input = |input| -> Outcome<Scalar> {
-            Ok(Scalar::Node(self.build(span, |graph| graph.input(input))?))
-        };
+        let mut input =
+            |input| -> Outcome<Scalar> { Ok(Scalar::Node(self.build(span, |graph| graph.input(input))?)) };
         let p = [input(Input::Px)?, input(Input::Py)?, input(Input::Pz)?];
         let world = [input(Input::Wx)?, input(Input::Wy)?, input(Input::Wz)?];
         let normal = [input(Input::Nx)?, input(Input::Ny)?, input(Input::Nz)?];
@@ -66,7 +65,12 @@ impl Machine<'_> {
         {
             return Ok(Texture::Noise(noise));
         }
-        let compiled = self.compile(&given.value, given.span, |hit| Value::Hit(Arc::new(hit)), color_outputs(given.span))?;
+        let compiled = self.compile(
+            &given.value,
+            given.span,
+            |hit| Value::Hit(Arc::new(hit)),
+            color_outputs(given.span),
+        )?;
         Ok(match compiled {
             Compiled::Constant(color) => Texture::Solid(Rgb::from(color)),
             Compiled::Function(function) => Texture::Function(function),
@@ -79,9 +83,12 @@ impl Machine<'_> {
             return Ok(Field::Constant(value));
         }
         let span = given.span;
-        let compiled = self.compile(&given.value, span, |hit| Value::Hit(Arc::new(hit)), |graph, value| {
-            Ok(vec![single(graph, value, span)?])
-        })?;
+        let compiled = self.compile(
+            &given.value,
+            span,
+            |hit| Value::Hit(Arc::new(hit)),
+            |graph, value| Ok(vec![single(graph, value, span)?]),
+        )?;
         Ok(match compiled {
             Compiled::Constant([value, ..]) => Field::Constant(value),
             Compiled::Function(function) => Field::Function(function),
@@ -91,11 +98,17 @@ impl Machine<'_> {
     /// The gradient of a height.
     pub(super) fn bump(&mut self, given: &Given) -> Outcome<Option<Arc<Function>>> {
         let span = given.span;
-        let compiled = self.compile(&given.value, span, |hit| Value::Hit(Arc::new(hit)), |graph, value| {
-            let height = single(graph, value, span)?;
-            let mut slope = |input| graph.derivative(height, input).map_err(|error| no_slope(&error, span));
-            Ok(vec![slope(Input::Px)?, slope(Input::Py)?, slope(Input::Pz)?])
-        })?;
+        let compiled = self.compile(
+            &given.value,
+            span,
+            |hit| Value::Hit(Arc::new(hit)),
+            |graph, value| {
+                let height = single(graph, value, span)?;
+                let mut slope =
+                    |input| graph.derivative(height, input).map_err(|error| no_slope(&error, span));
+                Ok(vec![slope(Input::Px)?, slope(Input::Py)?, slope(Input::Pz)?])
+            },
+        )?;
         Ok(match compiled {
             Compiled::Constant(_) => None,
             Compiled::Function(function) => Some(function),
@@ -147,7 +160,9 @@ impl Machine<'_> {
             "perlinSemiTurb" => {
                 NoiseTexture::SemiTurbulence { base: color("color")?, octaves: octaves("octaves")?, grid }
             }
-            "perlinTurb" => NoiseTexture::Turbulence { base: color("color")?, octaves: octaves("octaves")?, grid },
+            "perlinTurb" => {
+                NoiseTexture::Turbulence { base: color("color")?, octaves: octaves("octaves")?, grid }
+            }
             "perlinFire" => NoiseTexture::Fire {
                 added: color("added")?,
                 base: color("color")?,
@@ -193,7 +208,9 @@ fn known_color(parts: [Scalar; 3], len: usize, span: Span) -> Outcome<Rgb> {
 fn node(graph: &mut Builder, scalar: Scalar, span: Span) -> Outcome<NodeId> {
     match scalar {
         Scalar::Node(node) => Ok(node),
-        Scalar::Known(value) => graph.constant(value).map_err(|_| internal(span, "no room for a constant").into()),
+        Scalar::Known(value) => {
+            graph.constant(value).map_err(|_| internal(span, "no room for a constant").into())
+        }
     }
 }
 
@@ -224,9 +241,12 @@ fn no_slope(error: &DerivativeError, span: Span) -> Box<Failure> {
             "too large",
         )
         .with_help("do less for each hit; or raise the budget with `--eval-nodes`"),
-        DerivativeError::Loop => {
-            Diagnostic::error("no-slope", "the slope of a height that is made by `iterate` is not known", span, "this height")
-                .with_help("bumps need a height without a loop whose end depends on the hit")
-        }
+        DerivativeError::Loop => Diagnostic::error(
+            "no-slope",
+            "the slope of a height that is made by `iterate` is not known",
+            span,
+            "this height",
+        )
+        .with_help("bumps need a height without a loop whose end depends on the hit"),
     })
 }

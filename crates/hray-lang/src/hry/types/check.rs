@@ -27,10 +27,12 @@ pub fn check(program: &Program, diagnostics: &mut Vec<Diagnostic>) -> Checked {
     infer.modules(own);
     if let Some(root) = program.root() {
         let has_scene = root.syntax.definitions.iter().any(|d| d.name().is_some_and(|name| &*name.text == "scene"));
-        if has_scene {
-            unused::check(program, &names, &mut found);
-        } else {
+        // What is misspelt is not used; that is no news then.
+        let is_sound = !diagnostics.iter().chain(&found).any(Diagnostic::is_error);
+        if !has_scene {
             infer.no_scene(root);
+        } else if is_sound {
+            unused::check(program, &names, &mut found);
         }
     }
     infer.finish();
@@ -87,4 +89,16 @@ fn native_types(errors: &mut Vec<Diagnostic>) -> Types {
     let natives = schemes.map(Arc::new).collect();
     errors.append(&mut infer.diagnostics);
     Types { natives, ..infer.types }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn nothing_is_wrong_with_the_library() {
+        let (_, wrong) = standard_types();
+        let errors: Vec<_> = wrong.iter().filter(|diagnostic| diagnostic.is_error()).collect();
+        assert!(errors.is_empty(), "{errors:#?}");
+    }
 }

@@ -72,8 +72,11 @@ impl Checked {
     ) -> Self {
         notes.sort_by_key(|(span, _)| (span.start, std::cmp::Reverse(span.end)));
         let name = |definition: &Definition| definition.name().map(|name| name.span);
-        let definitions =
-            program.modules.iter().map(|module| module.syntax.definitions.iter().map(name).collect()).collect();
+        let definitions = program
+            .modules
+            .iter()
+            .map(|module| module.syntax.definitions.iter().map(name).collect())
+            .collect();
         Self { names, types, locals, notes, fields, literals, accesses, definitions }
     }
 
@@ -83,7 +86,9 @@ impl Checked {
         let mut printer = Printer::new(&self.types.store);
         match global {
             Global::Definition { module, index } => match self.types.definitions.get(module)?.get(index)? {
-                Binding::Poly(scheme) if !self.types.store.is_error(scheme.ty) => Some(printer.scheme(scheme)),
+                Binding::Poly(scheme) if !self.types.store.is_error(scheme.ty) => {
+                    Some(printer.scheme(scheme))
+                }
                 _ => None,
             },
             Global::Native(native) => {
@@ -117,7 +122,9 @@ impl Checked {
                 _ => None,
             };
         }
-        self.definition_named(span.start).filter(|(_, name)| *name == span).and_then(|(global, _)| self.scheme_of(global))
+        self.definition_named(span.start)
+            .filter(|(_, name)| *name == span)
+            .and_then(|(global, _)| self.scheme_of(global))
     }
 
     /// The definition whose name stands at an offset.
@@ -160,12 +167,14 @@ impl Checked {
             Target::Local(span) => {
                 let local = self.names.bound.get(&span.start).copied();
                 let uses = self.names.places.iter();
-                let uses = uses.filter(|(_, meaning)| matches!(meaning, Meaning::Local(l) if Some(*l) == local));
+                let uses =
+                    uses.filter(|(_, meaning)| matches!(meaning, Meaning::Local(l) if Some(*l) == local));
                 uses.map(|(span, _)| *span).chain([*span]).collect()
             }
             Target::Global(global) => {
                 let uses = self.names.places.iter();
-                let uses = uses.filter(|(_, meaning)| matches!(meaning, Meaning::Global(g) if same(*g, *global)));
+                let uses =
+                    uses.filter(|(_, meaning)| matches!(meaning, Meaning::Global(g) if same(*g, *global)));
                 uses.map(|(span, _)| *span).chain(self.own_place(*global)).collect()
             }
             Target::Field(constructor, field) => {
@@ -193,9 +202,8 @@ impl Checked {
     /// point), or whose field the offset is in; the constructor whose record it is in; and the locals in scope.
     #[must_use]
     pub fn completion_at(&self, offset: usize) -> Completion {
-        let access = self.accesses.iter().find(|(record, name)| {
-            touches(*name, offset) || record.end + 1 == offset
-        });
+        let access =
+            self.accesses.iter().find(|(record, name)| touches(*name, offset) || record.end + 1 == offset);
         let record = access.map(|(record, _)| *record);
         let expression = self.notes.iter().filter(|(span, _)| match record {
             Some(record) => *span == record,
@@ -221,9 +229,10 @@ impl Checked {
             names.iter().filter_map(typed).collect()
         };
         match self.types.store.get(ty) {
-            Node::Record(fields) => {
-                fields.iter().map(|(name, ty)| (name.to_string(), Printer::new(&self.types.store).show(*ty))).collect()
-            }
+            Node::Record(fields) => fields
+                .iter()
+                .map(|(name, ty)| (name.to_string(), Printer::new(&self.types.store).show(*ty)))
+                .collect(),
             Node::Alone(Head::Hit) => fixed(&["p", "world", "normal", "uv", "time"], Head::Hit),
             Node::Alone(Head::Color) => fixed(&["r", "g", "b"], Head::Color),
             Node::Alone(Head::Vec2) => fixed(&["x", "y", "yx"], Head::Vec2),

@@ -139,7 +139,8 @@ impl Kind {
         Self(Self::of(&[H::Shape, H::Material, H::Light, H::Camera, H::Function]).0 | PLACEABLE_FLAG);
     /// What `==` compares, inside and out.
     pub(super) const EQUATABLE: Self = Self(
-        Self::of(&[H::Number, H::Bool, H::Text, H::Vec2, H::Vec3, H::Color, H::List, H::Record]).0 | EQUATABLE_FLAG,
+        Self::of(&[H::Number, H::Bool, H::Text, H::Vec2, H::Vec3, H::Color, H::List, H::Record]).0
+            | EQUATABLE_FLAG,
     );
 
     /// Those heads.

@@ -3,7 +3,9 @@
 use super::lints;
 use super::unknown;
 use crate::diagnostic::{Diagnostic, Span};
-use crate::hry::ast::{Definition, Expr, ExprKind, Import, ImportNames, Module, Name, Pattern, PatternKind, Qualifier};
+use crate::hry::ast::{
+    Definition, Expr, ExprKind, Import, ImportNames, Module, Name, Pattern, PatternKind, Qualifier,
+};
 use crate::hry::program::{Global, LoadedModule};
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -30,6 +32,20 @@ pub(super) struct Local {
     /// Whether it is bound by `let`.
     pub(super) is_let: bool,
     pub(super) is_used: bool,
+    /// Of a parameter of a definition: whether fields of a hit are read from it that tell that it is one, and no others.
+    pub(super) fields: Fields,
+}
+
+/// The fields that are read from a local.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) enum Fields {
+    /// None that tell anything.
+    #[default]
+    None,
+    /// Those of a hit, one of which tells.
+    OfAHit,
+    /// Others, too.
+    Others,
 }
 
 /// The meanings of all names of a program's own modules.
@@ -92,7 +108,9 @@ fn own_definitions(place: usize, module: &LoadedModule) -> HashMap<Arc<str>, Spa
 /// Whether two globals are the same.
 pub(super) fn same(a: Global, b: Global) -> bool {
     match (a, b) {
-        (Global::Definition { module: m, index: i }, Global::Definition { module: n, index: j }) => (m, i) == (n, j),
+        (Global::Definition { module: m, index: i }, Global::Definition { module: n, index: j }) => {
+            (m, i) == (n, j)
+        }
         (Global::Native(a), Global::Native(b)) => a.native == b.native,
         (Global::Constructor(a), Global::Constructor(b)) => a.name == b.name,
         _ => false,
@@ -131,7 +149,8 @@ impl Resolver<'_> {
             ImportNames::All => {}
             ImportNames::Listed(listed) => {
                 for name in listed {
-                    if let Some(global @ Global::Definition { .. }) = self.module.scope.names.get(&name.text) {
+                    if let Some(global @ Global::Definition { .. }) = self.module.scope.names.get(&name.text)
+                    {
                         self.names.places.push((name.span, Meaning::Global(*global)));
                     }
                 }
@@ -161,7 +180,9 @@ impl Resolver<'_> {
     fn bind(&mut self, pattern: &Pattern, scope: Span, is_let: bool, locals: &mut Vec<usize>) {
         match &pattern.kind {
             PatternKind::Name(name) => self.bind_name(name, pattern.span, scope, is_let, locals),
-            PatternKind::Vector(parts) => parts.iter().for_each(|part| self.bind(part, scope, is_let, locals)),
+            PatternKind::Vector(parts) => {
+                parts.iter().for_each(|part| self.bind(part, scope, is_let, locals))
+            }
             PatternKind::List { items, rest } => {
                 items.iter().for_each(|item| self.bind(item, scope, is_let, locals));
                 if let Some(Some(rest)) = rest {
@@ -178,11 +199,13 @@ impl Resolver<'_> {
     fn bind_name(&mut self, name: &Arc<str>, span: Span, scope: Span, is_let: bool, locals: &mut Vec<usize>) {
         let outer = self.scopes.get(name).and_then(|locals| locals.last());
         let outer = outer.and_then(|local| self.names.locals.get(*local).map(|local| (*local).span));
-        let together = locals.iter().any(|local| self.names.locals.get(*local).is_some_and(|l| l.name == *name));
+        let together =
+            locals.iter().any(|local| self.names.locals.get(*local).is_some_and(|l| l.name == *name));
         if let (true, Some(first)) = (together, outer) {
-            let error = Diagnostic::error("defined-twice", format!("`{name}` is bound twice"), span, "again here")
-                .with_secondary(first, "first bound here")
-                .with_help("give one of them another name, or write `_` for what is not needed");
+            let error =
+                Diagnostic::error("defined-twice", format!("`{name}` is bound twice"), span, "again here")
+                    .with_secondary(first, "first bound here")
+                    .with_help("give one of them another name, or write `_` for what is not needed");
             self.diagnostics.push(error);
         } else if let Some(first) = outer.or_else(|| self.own.get(name).copied()) {
             if !name.starts_with('_') {
@@ -190,7 +213,7 @@ impl Resolver<'_> {
             }
         }
         let local = self.names.locals.len();
-        self.names.locals.push(Local { name: name.clone(), span, scope, is_let, is_used: false });
+        self.names.locals.push(Local { name: name.clone(), span, scope, is_let, is_used: false, fields: Fields::None });
         self.names.bound.insert(span.start, local);
         self.scopes.entry(name.clone()).or_default().push(local);
         locals.push(local);
@@ -281,6 +304,19 @@ impl Resolver<'_> {
         }
     }
 
+    /// A field is read from something.
+    fn field(&mut self, record: &Expr, name: &str) {
+        let Some(Meaning::Local(local)) = self.names.uses.get(&record.span.start) else { return };
+        if let (ExprKind::Name(_), Some(local)) = (&record.kind, self.names.locals.get_mut(*local)) {
+            local.fields = match (local.fields, name) {
+                (Fields::Others, _) => Fields::Others,
+                (_, "p" | "world" | "normal") => Fields::OfAHit,
+                (known, "uv" | "time") => known,
+                _ => Fields::Others,
+            };
+        }
+    }
+
     fn mark(&mut self, local: usize) {
         if let Some(local) = self.names.locals.get_mut(local) {
             local.is_used = true;
@@ -332,11 +368,13 @@ impl Resolver<'_> {
             ExprKind::Record(fields) => fields.iter().for_each(|field| self.expr(&field.value)),
             ExprKind::Update { record, fields } => {
                 self.expr(record);
+                fields.iter().for_each(|field| self.field(record, &field.name.text));
                 fields.iter().for_each(|field| self.expr(&field.value));
             }
             ExprKind::Field { record, name } => {
                 if !self.qualified(record, name) {
                     self.expr(record);
+                    self.field(record, &name.text);
                 }
             }
             ExprKind::Apply { function, argument } => {
@@ -375,7 +413,11 @@ impl Resolver<'_> {
                 }
             }
             ExprKind::Annotated { expression, .. } => self.expr(expression),
-            ExprKind::Number(_) | ExprKind::Bool(_) | ExprKind::Text(_) | ExprKind::Color(_) | ExprKind::Error => {}
+            ExprKind::Number(_)
+            | ExprKind::Bool(_)
+            | ExprKind::Text(_)
+            | ExprKind::Color(_)
+            | ExprKind::Error => {}
         }
     }
 

@@ -54,7 +54,7 @@ pub(super) enum Clash {
     /// A type is none of those that are allowed.
     Kind(Ty, Kind),
     /// A type would contain itself.
-    Infinite(Ty, Ty),
+    Infinite,
     /// A variable of an annotation would leave it.
     Escape(Ty),
     /// Nested too deeply.
@@ -233,8 +233,9 @@ impl Store {
         let trail = std::mem::take(&mut self.trail);
         match result {
             Ok(()) => {
-                let variables =
-                    trail.iter().filter(|(_, before)| matches!(before, Node::Variable { .. } | Node::Rigid { .. }));
+                let variables = trail
+                    .iter()
+                    .filter(|(_, before)| matches!(before, Node::Variable { .. } | Node::Rigid { .. }));
                 self.woken.extend(variables.map(|(ty, _)| *ty));
             }
             Err(_) => {
@@ -306,7 +307,7 @@ impl Store {
         while let Some(next) = open.pop() {
             let next = self.find(next);
             if next == variable {
-                return Err(Clash::Infinite(variable, ty));
+                return Err(Clash::Infinite);
             }
             if !self.mark(next) {
                 continue;

@@ -19,13 +19,29 @@ const FOREIGN: &[Foreign] = &[
     Foreign("arctan", "atan", ""),
     Foreign("arctan2", "atan2", ""),
     Foreign("area_light", "", "the lights are `point`, `directional`, `spotlight` and `ambient`"),
-    Foreign("background", "", "the background is a field of the scene: `scene = { background = #cfe3ff, ... }`"),
+    Foreign(
+        "background",
+        "",
+        "the background is a field of the scene: `scene = { background = #cfe3ff, ... }`",
+    ),
     Foreign("boolean", "", "the type of `true` and `false` is `Bool`"),
-    Foreign("camera", "", "a camera is `perspective { from = ..., to = ... }`, `orthographic { ... }` or `window { ... }`"),
+    Foreign(
+        "camera",
+        "",
+        "a camera is `perspective { from = ..., to = ... }`, `orthographic { ... }` or `window { ... }`",
+    ),
     Foreign("case", "", "cases are written `match x { 0 -> a, _ -> b }`"),
     Foreign("ceiling", "ceil", ""),
-    Foreign("color", "", "a colour is `rgb 1 0.5 0` or `#ff8800`; a material of that colour `classic { color = #ff8800 }`"),
-    Foreign("colour", "", "a colour is `rgb 1 0.5 0` or `#ff8800`; a material of that colour `classic { color = #ff8800 }`"),
+    Foreign(
+        "color",
+        "",
+        "a colour is `rgb 1 0.5 0` or `#ff8800`; a material of that colour `classic { color = #ff8800 }`",
+    ),
+    Foreign(
+        "colour",
+        "",
+        "a colour is `rgb 1 0.5 0` or `#ff8800`; a material of that colour `classic { color = #ff8800 }`",
+    ),
     Foreign("concatmap", "", "a comprehension does it: `[ y | x <- list, y <- f x ]`"),
     Foreign("const", "", "a function that ignores its argument is `\\_ -> x`"),
     Foreign("cuboid", "box", ""),
@@ -33,7 +49,11 @@ const FOREIGN: &[Foreign] = &[
     Foreign("declare", "", "a definition is `name = value`"),
     Foreign("def", "", "a function is `name parameter = value`"),
     Foreign("define", "", "a definition is `name = value`"),
-    Foreign("degrees", "", "angles are in radians everywhere, and `30deg` is a number; `angle / 1deg` is in degrees"),
+    Foreign(
+        "degrees",
+        "",
+        "angles are in radians everywhere, and `30deg` is a number; `angle / 1deg` is in degrees",
+    ),
     Foreign("diffuse", "classic", "a matte material is `classic { color = ... }`"),
     Foreign("directional_light", "directional", ""),
     Foreign("do", "", "there are no statements; intermediate values are named by `let ... in`"),
@@ -42,7 +62,11 @@ const FOREIGN: &[Foreign] = &[
     Foreign("exp2", "", "a power is written `2 ^ x`"),
     Foreign("exponent", "exp", ""),
     Foreign("fabs", "abs", ""),
-    Foreign("finish", "", "a material is one record: `classic { color = gold, reflection = 0.3, shine = 60 }`"),
+    Foreign(
+        "finish",
+        "",
+        "a material is one record: `classic { color = gold, reflection = 0.3, shine = 60 }`",
+    ),
     Foreign("float", "", "there is one kind of numbers, `Number`; nothing has to be converted"),
     Foreign("fmod", "", "the rest of a division is `a % b`, with spaces around the `%`"),
     Foreign("foldl", "fold", ""),
@@ -72,13 +96,29 @@ const FOREIGN: &[Foreign] = &[
     Foreign("mod", "", "the rest of a division is `a % b`, with spaces around the `%`"),
     Foreign("modulo", "", "the rest of a division is `a % b`, with spaces around the `%`"),
     Foreign("new", "", "nothing has to be made new: `sphere { radius = 1 }` is a value"),
-    Foreign("nil", "", "there is no value for `nothing`; the empty list is `[]`, and a field that is not needed is left out"),
-    Foreign("none", "", "there is no value for `nothing`; the empty list is `[]`, and a field that is not needed is left out"),
+    Foreign(
+        "nil",
+        "",
+        "there is no value for `nothing`; the empty list is `[]`, and a field that is not needed is left out",
+    ),
+    Foreign(
+        "none",
+        "",
+        "there is no value for `nothing`; the empty list is `[]`, and a field that is not needed is left out",
+    ),
     Foreign("normalise", "normalize", ""),
-    Foreign("null", "", "there is no value for `nothing`; the empty list is `[]`, and a field that is not needed is left out"),
+    Foreign(
+        "null",
+        "",
+        "there is no value for `nothing`; the empty list is `[]`, and a field that is not needed is left out",
+    ),
     Foreign("object", "", "a shape with its material is simply the shape: `sphere { material = ... }`"),
     Foreign("otherwise", "", "cases end with `else`, or with `_ ->` in a match"),
-    Foreign("pigment", "", "a colour, or a function of a hit, goes straight into a material: `classic { color = ... }`"),
+    Foreign(
+        "pigment",
+        "",
+        "a colour, or a function of a hit, goes straight into a material: `classic { color = ... }`",
+    ),
     Foreign("pointlight", "point", ""),
     Foreign("point_light", "point", ""),
     Foreign("pow", "", "a power is written `a ^ b`"),
@@ -90,7 +130,11 @@ const FOREIGN: &[Foreign] = &[
     Foreign("range", "", "a range is `[0 .. n - 1]`, its last element included"),
     Foreign("repeat", "", "write `[ x | _ <- [1 .. n] ]`"),
     Foreign("replicate", "", "write `[ x | _ <- [1 .. n] ]`"),
-    Foreign("return", "", "the value of a definition is the expression after `=`; nothing has to be returned"),
+    Foreign(
+        "return",
+        "",
+        "the value of a definition is the expression after `=`; nothing has to be returned",
+    ),
     Foreign("rgba", "rgb", "colours have no alpha; a material has `transparency`"),
     Foreign("rgbf", "rgb", "colours have no filter; a material has `transparency`"),
     Foreign("saturate", "", "write `clamp 0 1 x`"),
@@ -106,14 +150,22 @@ const FOREIGN: &[Foreign] = &[
     Foreign("switch", "", "cases are written `match x { 0 -> a, _ -> b }`"),
     Foreign("tail", "", "all but the first element are `drop 1 list`"),
     Foreign("tau", "turn", "a whole turn in radians is `turn`"),
-    Foreign("texture", "", "a colour, or a function of a hit, goes straight into a material: `classic { color = ... }`"),
+    Foreign(
+        "texture",
+        "",
+        "a colour, or a function of a hit, goes straight into a material: `classic { color = ... }`",
+    ),
     Foreign("this", "", "there are no objects with methods; fields are read by `value.field`"),
     Foreign("tostring", "show", ""),
     Foreign("torus", "", "there is no torus yet; the shapes are `sphere`, `plane`, `cube` and `box`"),
     Foreign("transform", "", "use `translate`, `rotate`, `scale`, `stretch` or `matrix`"),
     Foreign("triangle", "", "there is no triangle yet; the shapes are `sphere`, `plane`, `cube` and `box`"),
     Foreign("trunc", "floor", ""),
-    Foreign("undefined", "", "there is no value for `nothing`; the empty list is `[]`, and a field that is not needed is left out"),
+    Foreign(
+        "undefined",
+        "",
+        "there is no value for `nothing`; the empty list is `[]`, and a field that is not needed is left out",
+    ),
     Foreign("unit", "normalize", ""),
     Foreign("var", "", "a definition is `name = value`"),
     Foreign("vec", "", "a vector is written in parentheses: `(x, y, z)`"),
@@ -131,6 +183,15 @@ const FOREIGN: &[Foreign] = &[
     Foreign("zip", "", "`zipWith f a b` goes through two lists at once"),
 ];
 
+/// The name that was probably meant. Names of one letter are near to nothing.
+pub(super) fn near<'n>(name: &str, names: impl Iterator<Item = &'n str>) -> Option<&'n str> {
+    let is_short = |name: &str| name.chars().count() < 2;
+    if is_short(name) {
+        return names.into_iter().find(|other| *other != name && other.to_lowercase() == name.to_lowercase());
+    }
+    nearest(name, names.filter(|other| !is_short(other)))
+}
+
 /// The complaint about a name that means nothing.
 pub(super) fn name(name: &str, span: Span, module: &LoadedModule, locals: &[&str]) -> Diagnostic {
     let error = Diagnostic::error("unknown-name", format!("there is no `{name}` here"), span, "not defined");
@@ -144,7 +205,7 @@ pub(super) fn name(name: &str, span: Span, module: &LoadedModule, locals: &[&str
     }
     let all = module.scope.all();
     let known = locals.iter().copied().chain(all.iter().map(|(name, _)| &**name));
-    if let Some(near) = nearest(name, known) {
+    if let Some(near) = near(name, known) {
         return error.with_suggestion(span, near, format!("did you mean `{near}`?"));
     }
     if let Some(qualified) = qualified_home(name, module) {
@@ -152,7 +213,10 @@ pub(super) fn name(name: &str, span: Span, module: &LoadedModule, locals: &[&str
         return error.with_suggestion(span, qualified, text);
     }
     if let Some(constructor) = field_of(name) {
-        let text = format!("`{name}` is a field of `{}`; it is written inside `{} {{ ... }}`", constructor.name, constructor.name);
+        let text = format!(
+            "`{name}` is a field of `{}`; it is written inside `{} {{ ... }}`",
+            constructor.name, constructor.name
+        );
         return error.with_help(text);
     }
     error.with_help(format!("define it somewhere in this file, for example: `{name} = 1`"))
@@ -191,7 +255,7 @@ pub(super) fn qualified(
     let error = Diagnostic::error("unknown-name", message, name.span, "not defined there");
     let mut all: Vec<&str> = names.keys().map(AsRef::as_ref).collect();
     all.sort_unstable();
-    match nearest(&name.text, all.iter().copied()) {
+    match near(&name.text, all.iter().copied()) {
         Some(near) => error.with_suggestion(name.span, near, format!("did you mean `{near}`?")),
         None if all.is_empty() => error.with_help("that file defines nothing"),
         None => error.with_help(format!("it defines {}", listed(&all))),
@@ -202,7 +266,10 @@ pub(super) fn qualified(
 pub(super) fn field_synonym(constructor: &Constructor, name: &str) -> Option<&'static str> {
     const SYNONYMS: &[(&[&str], &[&str])] = &[
         (&["r", "rad", "diameter"], &["radius"]),
-        (&["position", "pos", "location", "at", "centre", "origin", "middle", "translate"], &["center", "position", "from", "eye"]),
+        (
+            &["position", "pos", "location", "at", "centre", "origin", "middle", "translate"],
+            &["center", "position", "from", "eye"],
+        ),
         (&["eye", "camera", "location"], &["from", "position"]),
         (&["target", "lookat", "look_at", "look", "center", "at"], &["to", "target"]),
         (&["angle", "fieldofview", "zoom"], &["fov", "angle"]),

@@ -14,7 +14,8 @@ pub(super) fn check(program: &Program, names: &Names, found: &mut Vec<Diagnostic
     for local in &names.locals {
         if local.is_let && !local.is_used && !local.name.starts_with('_') {
             let message = format!("`{}` is not used", local.name);
-            let warning = Diagnostic::warning("unused-local", message, local.span, "bound here, used nowhere");
+            let warning =
+                Diagnostic::warning("unused-local", message, local.span, "bound here, used nowhere");
             found.push(warning.with_help(format!("remove it, or name it `_{}`", local.name)));
         }
     }
@@ -25,8 +26,10 @@ fn definitions(program: &Program, names: &Names, found: &mut Vec<Diagnostic>) {
     let Some(root) = program.root() else { return };
     let all = &root.syntax.definitions;
     let is_scene = |d: &Definition| d.name().is_some_and(|name| &*name.text == "scene");
-    let mut open: Vec<(usize, usize)> = all.iter().position(is_scene).map(|index| (program.root, index)).into_iter().collect();
-    let kept = all.iter().enumerate().filter(|(_, d)| d.name().is_some_and(|name| name.text.starts_with('_')));
+    let mut open: Vec<(usize, usize)> =
+        all.iter().position(is_scene).map(|index| (program.root, index)).into_iter().collect();
+    let kept =
+        all.iter().enumerate().filter(|(_, d)| d.name().is_some_and(|name| name.text.starts_with('_')));
     open.extend(kept.map(|(index, _)| (program.root, index)));
     let mut reached: HashSet<(usize, usize)> = open.iter().copied().collect();
     while let Some(definition) = open.pop() {
@@ -43,7 +46,8 @@ fn definitions(program: &Program, names: &Names, found: &mut Vec<Diagnostic>) {
         let is_meant = matches!(means, Some(Global::Definition { module, index: i }) if (*module, *i) == (program.root, index));
         if is_meant && !reached.contains(&(program.root, index)) {
             let message = format!("`{}` is not used by the scene", name.text);
-            let warning = Diagnostic::warning("unused-definition", message, name.span, "defined here, used nowhere");
+            let warning =
+                Diagnostic::warning("unused-definition", message, name.span, "defined here, used nowhere");
             found.push(warning.with_help(format!("use it, remove it, or name it `_{}`", name.text)));
         }
     }
@@ -79,10 +83,16 @@ fn unused_import(
     found: &mut Vec<Diagnostic>,
 ) {
     let path = resolve(&module.path, &import.path);
-    let imported = program.modules.iter().position(|other| !other.is_standard && Some(&other.path) == path.as_ref());
+    let imported =
+        program.modules.iter().position(|other| !other.is_standard && Some(&other.path) == path.as_ref());
     let Some(imported) = imported else { return };
     let warn = |span: Span, what: &str| {
-        let warning = Diagnostic::warning("unused-import", format!("{what} is not used"), span, "imported, used nowhere");
+        let warning = Diagnostic::warning(
+            "unused-import",
+            format!("{what} is not used"),
+            span,
+            "imported, used nowhere",
+        );
         warning.with_help("remove it")
     };
     let ImportNames::Listed(listed) = &import.names else {

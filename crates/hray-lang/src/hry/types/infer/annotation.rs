@@ -89,15 +89,19 @@ impl Infer<'_> {
             return *known;
         }
         let kind = Kind::named(name);
-        let ty =
-            if variables.rigid { self.types.store.rigid(name.clone(), self.level, kind) } else { self.fresh_of(kind) };
+        let ty = if variables.rigid {
+            self.types.store.rigid(name.clone(), self.level, kind)
+        } else {
+            self.fresh_of(kind)
+        };
         variables.known.insert(name.clone(), ty);
         ty
     }
 
     fn unknown_type(&mut self, name: &str, span: Span) {
         let names = Head::ALONE.map(Head::name);
-        let error = Diagnostic::error("unknown-type", format!("there is no type `{name}`"), span, "not a type");
+        let error =
+            Diagnostic::error("unknown-type", format!("there is no type `{name}`"), span, "not a type");
         let here = match name {
             "Int" | "Integer" | "Float" | "Double" | "Real" | "Num" | "Scalar" => Some("Number"),
             "String" | "Str" | "Char" => Some("Text"),

@@ -78,7 +78,7 @@ impl<'p> Infer<'p> {
                     self.field_value(constructor, field, value)
                 }
                 None => {
-                    self.unknown_constructor_field(constructor, &name.text, name.span, None);
+                    self.unknown_constructor_field(constructor, &name.text, name.span, None, true);
                     self.expr(&value.value, None)
                 }
             };
@@ -90,7 +90,12 @@ impl<'p> Infer<'p> {
     }
 
     /// A value for a field of a constructor.
-    fn field_value(&mut self, constructor: &'static Constructor, field: &'static FieldSpec, value: &'p FieldValue) -> Ty {
+    fn field_value(
+        &mut self,
+        constructor: &'static Constructor,
+        field: &'static FieldSpec,
+        value: &'p FieldValue,
+    ) -> Ty {
         let expr = &value.value;
         let why = Why::Field { constructor, field, name: value.name.span };
         let allowed = Allowed::of(field);
@@ -117,7 +122,15 @@ impl<'p> Infer<'p> {
                 self.demand(Demand::Slot { value: ty, constructor, field }, at(expr.span));
             }
             Err(_) => {
-                let error = self.wrong_slot(Some(expr), expr.span, ty, constructor, field, Some(value.name.span), None);
+                let error = self.wrong_slot(
+                    Some(expr),
+                    expr.span,
+                    ty,
+                    constructor,
+                    field,
+                    Some(value.name.span),
+                    None,
+                );
                 self.report(error);
             }
         }

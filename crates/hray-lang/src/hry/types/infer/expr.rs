@@ -36,12 +36,16 @@ impl<'p> Infer<'p> {
             ExprKind::Text(_) => self.settle(expr, Ty::TEXT, expected),
             ExprKind::Color(_) => self.settle(expr, Ty::COLOR, expected),
             ExprKind::Error => Ty::ERROR,
-            ExprKind::If { condition, then, otherwise } => self.conditional(expr, [condition, then, otherwise], expected),
+            ExprKind::If { condition, then, otherwise } => {
+                self.conditional(expr, [condition, then, otherwise], expected)
+            }
             ExprKind::Let { bindings, body } => self.let_in(bindings, body, expected),
             ExprKind::Match { subject, arms } => self.matching(expr, subject, arms, expected),
             ExprKind::Lambda { parameters, body } => self.lambda(expr, parameters, body, expected),
             ExprKind::List(items) => self.list(expr, items, expected),
-            ExprKind::Comprehension { body, qualifiers } => self.comprehension(expr, body, qualifiers, expected),
+            ExprKind::Comprehension { body, qualifiers } => {
+                self.comprehension(expr, body, qualifiers, expected)
+            }
             ExprKind::Binary { operator, operator_span, left, right } => {
                 self.binary(expr, *operator, *operator_span, [left, right], expected)
             }
@@ -71,7 +75,7 @@ impl<'p> Infer<'p> {
             ExprKind::Update { record, fields } => self.update(record, fields),
             ExprKind::Field { record, name } => self.field_read(expr, record, name),
             ExprKind::Unary { operator: UnaryOperator::Not, operand } => {
-                let span = Span::new(expr.span.start, operand.span.start);
+                let span = Span::new(expr.span.start, expr.span.start + "not".len());
                 self.expr(operand, Some((Ty::BOOL, Why::Logic(span, "not"))));
                 Ty::BOOL
             }
@@ -128,7 +132,12 @@ impl<'p> Infer<'p> {
         if parts.len() == 2 { Ty::VEC2 } else { Ty::VEC3 }
     }
 
-    fn conditional(&mut self, expr: &'p Expr, [condition, then, otherwise]: [&'p Expr; 3], expected: Expected<'p>) -> Ty {
+    fn conditional(
+        &mut self,
+        expr: &'p Expr,
+        [condition, then, otherwise]: [&'p Expr; 3],
+        expected: Expected<'p>,
+    ) -> Ty {
         let word = Span::new(expr.span.start, expr.span.start + 2);
         self.expr(condition, Some((Ty::BOOL, Why::Condition(word))));
         self.constant_condition(condition);
@@ -146,7 +155,13 @@ impl<'p> Infer<'p> {
         self.expr(body, expected)
     }
 
-    fn lambda(&mut self, expr: &'p Expr, parameters: &'p [Pattern], body: &'p Expr, expected: Expected<'p>) -> Ty {
+    fn lambda(
+        &mut self,
+        expr: &'p Expr,
+        parameters: &'p [Pattern],
+        body: &'p Expr,
+        expected: Expected<'p>,
+    ) -> Ty {
         let known = expected.map(|(ty, _)| self.types.store.parameters(ty));
         let known = known.filter(|(taken, _)| taken.len() >= parameters.len());
         if let (Some(_), Some((mut ty, why))) = (known, expected) {

@@ -201,6 +201,8 @@ impl<'p> Infer<'p> {
             span,
             "what this may be used for is too much to keep track of",
         );
-        self.report(error.with_help(format!("write its type before it, for example `{name} : Number -> Number`, or split it")));
+        self.report(error.with_help(format!(
+            "write its type before it, for example `{name} : Number -> Number`, or split it"
+        )));
     }
 }

@@ -5,6 +5,7 @@ use super::{Infer, Why};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::hry::ast::{Definition, PatternKind};
 use crate::hry::types::graph::components;
+use crate::hry::types::names::Fields;
 use crate::hry::types::scheme::Binding;
 use crate::hry::types::store::Ty;
 use std::sync::Arc;
@@ -26,7 +27,10 @@ pub(super) struct Member<'p> {
 /// Where the type of a definition is kept.
 #[derive(Clone, Copy)]
 pub(super) enum Place {
-    Top { module: usize, index: usize },
+    Top {
+        module: usize,
+        index: usize,
+    },
     Local(usize),
     /// It could not be read, or is there twice: nothing refers to it.
     Nowhere,
@@ -75,10 +79,14 @@ impl<'p> Infer<'p> {
         let edges = self.names.groups.get(&first.span.start).unwrap_or(&none);
         for component in components(edges) {
             let definitions: Vec<&Definition> = component.iter().filter_map(|i| bindings.get(*i)).collect();
-            let all_names = definitions.iter().all(|binding| matches!(binding.target.kind, PatternKind::Name(_)));
+            let all_names =
+                definitions.iter().all(|binding| matches!(binding.target.kind, PatternKind::Name(_)));
             if all_names {
                 let place = |binding: &Definition| {
-                    self.names.bound.get(&binding.target.span.start).map_or(Place::Nowhere, |i| Place::Local(*i))
+                    self.names
+                        .bound
+                        .get(&binding.target.span.start)
+                        .map_or(Place::Nowhere, |i| Place::Local(*i))
                 };
                 let members = definitions.into_iter().map(|binding| (binding, place(binding))).collect();
                 self.group(members);
@@ -143,7 +151,8 @@ impl<'p> Infer<'p> {
     /// Variables for the parameters and the body of a definition, and the type that they make.
     fn parts(&mut self, definition: &Definition) -> ((Vec<Ty>, Ty), Ty) {
         let count = definition.parameters.len();
-        if let (true, Some(parameter)) = (count > MOST_PARAMETERS, definition.parameters.get(MOST_PARAMETERS)) {
+        if let (true, Some(parameter)) = (count > MOST_PARAMETERS, definition.parameters.get(MOST_PARAMETERS))
+        {
             let message = format!("a function takes {MOST_PARAMETERS} parameters at most");
             let error = Diagnostic::error("too-many-parameters", message, parameter.span, "one too many");
             self.report(error.with_help("put what belongs together into a record"));
@@ -156,7 +165,9 @@ impl<'p> Infer<'p> {
 
     fn keep(&mut self, place: Place, binding: Binding) {
         let slot = match place {
-            Place::Top { module, index } => self.types.definitions.get_mut(module).and_then(|m| m.get_mut(index)),
+            Place::Top { module, index } => {
+                self.types.definitions.get_mut(module).and_then(|m| m.get_mut(index))
+            }
             Place::Local(local) => {
                 if let Some(slot) = self.locals.get_mut(local) {
                     *slot = Some(binding);
@@ -187,8 +198,19 @@ impl<'p> Infer<'p> {
     pub(super) fn body(&mut self, definition: &'p Definition, (parameters, result): &(Vec<Ty>, Ty)) {
         for (pattern, ty) in definition.parameters.iter().zip(parameters) {
             self.pattern(pattern, *ty, pattern.span, false);
+            // Generalisation would find it to be a hit; knowing it before the body makes for better errors there.
+            let local = self.names.bound.get(&pattern.span.start).and_then(|local| self.names.locals.get(*local));
+            if local.is_some_and(|local| local.span == pattern.span && local.fields == Fields::OfAHit) {
+                let _ = self.unify(*ty, Ty::HIT);
+            }
         }
+        let errors = self.errors;
         let found = self.expr(&definition.body, None);
+        // After an error in the body, that it does not agree with its use inside is no news.
+        if self.errors > errors {
+            let _ = self.unify(found, *result);
+            return;
+        }
         self.settle(&definition.body, found, Some((*result, Why::Recursion(definition.target.span))));
     }
 
@@ -202,7 +224,6 @@ impl<'p> Infer<'p> {
                     if !self.types.store.is_error(expected) {
                         self.too_many_parameters(definition, pattern.span, ty, annotation);
                     }
-                    expected = Ty::ERROR;
                     (Ty::ERROR, Ty::ERROR)
                 }
             };

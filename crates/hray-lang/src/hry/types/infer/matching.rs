@@ -36,10 +36,14 @@ impl<'p> Infer<'p> {
         let all = arms.iter().position(|(pattern, _)| takes_all(pattern));
         if let Some((place, (all, _))) = all.and_then(|place| Some((place, arms.get(place)?))) {
             if let Some((first, _)) = arms.get(place + 1) {
-                let warning =
-                    Diagnostic::warning("unreachable-arm", "no value gets to this case", first.span, "never used")
-                        .with_secondary(all.span, "this case takes everything")
-                        .with_help("put the case that takes everything last");
+                let warning = Diagnostic::warning(
+                    "unreachable-arm",
+                    "no value gets to this case",
+                    first.span,
+                    "never used",
+                )
+                .with_secondary(all.span, "this case takes everything")
+                .with_help("put the case that takes everything last");
                 self.report(warning);
             }
             return;
@@ -80,7 +84,8 @@ fn takes_all(pattern: &Pattern) -> bool {
 fn missing(arms: &[(Pattern, Expr)]) -> Option<String> {
     let patterns = || arms.iter().map(|(pattern, _)| &pattern.kind);
     if patterns().any(|pattern| matches!(pattern, PatternKind::Bool(_))) {
-        let missing = [true, false].into_iter().find(|value| !patterns().any(|p| *p == PatternKind::Bool(*value)));
+        let missing =
+            [true, false].into_iter().find(|value| !patterns().any(|p| *p == PatternKind::Bool(*value)));
         return missing.map(|value| value.to_string());
     }
     if patterns().any(|pattern| matches!(pattern, PatternKind::List { .. })) {
@@ -94,7 +99,9 @@ fn missing_list(arms: &[(Pattern, Expr)]) -> Option<String> {
     let lengths: Vec<(usize, bool)> = arms
         .iter()
         .filter_map(|(pattern, _)| match &pattern.kind {
-            PatternKind::List { items, rest } if items.iter().all(takes_all) => Some((items.len(), rest.is_some())),
+            PatternKind::List { items, rest } if items.iter().all(takes_all) => {
+                Some((items.len(), rest.is_some()))
+            }
             _ => None,
         })
         .collect();

@@ -58,9 +58,10 @@ impl<'p> Infer<'p> {
                 Ty::BOOL
             }
             B::Less | B::LessEqual | B::Greater | B::GreaterEqual => {
-                for side in [left, right] {
-                    self.expr(side, Some((Ty::NUMBER, Why::Order(span, operator))));
-                }
+                let errors = self.errors;
+                let expected = Some((Ty::NUMBER, Why::Order(span, operator)));
+                self.expr(left, expected);
+                self.expr(right, if self.errors > errors { None } else { expected });
                 Ty::BOOL
             }
             B::Equal | B::NotEqual => self.compare(operator, span, left, right),
@@ -186,8 +187,8 @@ impl<'p> Infer<'p> {
 
     fn division_by_zero(&mut self, operator: B, span: Span, right: &Expr) {
         if matches!(right.kind, ExprKind::Number(0.0)) {
-            let message = format!("`{} 0` is not a number", written(operator));
-            let warning = Diagnostic::warning("division-by-zero", message, span.to(right.span), "divides by zero");
+            let message = if operator == B::Divide { "this divides by 0" } else { "this is the rest of a division by 0" };
+            let warning = Diagnostic::warning("division-by-zero", message, span.to(right.span), "gives no number");
             self.report(warning.with_help("a surface with such a value is black or white, or not there at all"));
         }
     }

@@ -60,7 +60,14 @@ impl<'p> Infer<'p> {
         }
     }
 
-    fn literal_pattern(&mut self, pattern: &'p Pattern, literal: Ty, ty: Ty, subject: Span, may_refuse: bool) {
+    fn literal_pattern(
+        &mut self,
+        pattern: &'p Pattern,
+        literal: Ty,
+        ty: Ty,
+        subject: Span,
+        may_refuse: bool,
+    ) {
         if may_refuse {
             self.pattern_of(pattern, literal, ty, subject);
         } else {

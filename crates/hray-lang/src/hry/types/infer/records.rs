@@ -41,7 +41,9 @@ impl<'p> Infer<'p> {
     }
 
     pub(super) fn field_read(&mut self, expr: &'p Expr, record: &'p Expr, name: &'p Name) -> Ty {
-        if let (ExprKind::Name(_), Some(global)) = (&record.kind, self.names.qualifiers.get(&record.span.start)) {
+        if let (ExprKind::Name(_), Some(global)) =
+            (&record.kind, self.names.qualifiers.get(&record.span.start))
+        {
             return self.global(*global, expr.span);
         }
         self.accesses.push((record.span, name.span));

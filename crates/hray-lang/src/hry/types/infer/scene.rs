@@ -37,7 +37,9 @@ impl<'p> Infer<'p> {
             expected = to;
         }
         let mut body = &definition.body;
-        if let (true, ExprKind::Lambda { parameters, body: inner }) = (definition.parameters.is_empty(), &body.kind) {
+        if let (true, ExprKind::Lambda { parameters, body: inner }) =
+            (definition.parameters.is_empty(), &body.kind)
+        {
             if let [parameter] = parameters.as_slice() {
                 self.pattern(parameter, Ty::NUMBER, parameter.span, false);
                 let to = self.fresh();

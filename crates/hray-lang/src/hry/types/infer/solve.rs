@@ -13,7 +13,7 @@ use std::sync::Arc;
 #[derive(Clone, Copy, Debug)]
 pub(in crate::hry::types) enum Failure {
     /// Types that do not agree.
-    Clash(Clash),
+    Clash,
     /// There is no such field.
     NoField,
     /// The operands do not go together.
@@ -21,12 +21,12 @@ pub(in crate::hry::types) enum Failure {
     /// A constructor was given no record.
     NotARecord,
     /// A field of a constructor does not take that.
-    Slot(Ty),
+    Slot,
 }
 
 impl From<Clash> for Failure {
-    fn from(clash: Clash) -> Self {
-        Self::Clash(clash)
+    fn from(_: Clash) -> Self {
+        Self::Clash
     }
 }
 
@@ -89,7 +89,9 @@ impl Infer<'_> {
 
     pub(super) fn decide(&mut self, demand: &Demand, origin: Origin) -> Decided {
         match demand {
-            Demand::Arithmetic { operator, left, right, result } => self.arithmetic(*operator, *left, *right, *result),
+            Demand::Arithmetic { operator, left, right, result } => {
+                self.arithmetic(*operator, *left, *right, *result)
+            }
             Demand::Field { record, name, result, access } => self.field(*record, name, *result, *access),
             Demand::Construct { record, constructor } => self.construct(*record, constructor, origin),
             Demand::Slot { value, field, .. } => self.slot(*value, field),
@@ -204,7 +206,12 @@ impl Infer<'_> {
         }
     }
 
-    fn fields_of_record(&mut self, fields: &[(Arc<str>, Ty)], constructor: &'static Constructor, origin: Origin) {
+    fn fields_of_record(
+        &mut self,
+        fields: &[(Arc<str>, Ty)],
+        constructor: &'static Constructor,
+        origin: Origin,
+    ) {
         for (name, ty) in fields {
             match constructor.field(name) {
                 Some((_, field)) => {
@@ -215,7 +222,7 @@ impl Infer<'_> {
                     self.pending.push(id);
                     self.attempt(id);
                 }
-                None => self.unknown_constructor_field(constructor, name, origin.span, origin.via),
+                None => self.unknown_constructor_field(constructor, name, origin.span, origin.via, false),
             }
         }
         let given: Vec<&str> = fields.iter().map(|field| &*field.0).collect();
@@ -225,7 +232,7 @@ impl Infer<'_> {
     /// A value that a field of a constructor takes.
     pub(super) fn slot(&mut self, value: Ty, field: &'static FieldSpec) -> Decided {
         let allowed = Allowed::of(field);
-        let wrong = |_: Clash| Failure::Slot(value);
+        let wrong = |_: Clash| Failure::Slot;
         if let Some(of) = allowed.list {
             let list = self.types.store.list(of);
             self.types.store.unify(value, list).map_err(wrong)?;
@@ -233,13 +240,14 @@ impl Infer<'_> {
         }
         match self.types.store.get(value).clone() {
             Node::Function(from, to) => {
-                let taken = allowed.from.ok_or(Failure::Slot(value))?;
+                let taken = allowed.from.ok_or(Failure::Slot)?;
                 self.types.store.unify(from, taken).map_err(wrong)?;
                 self.types.store.narrow(to, allowed.heads).map_err(wrong)?;
                 Ok(true)
             }
             Node::Variable { .. } => {
-                let heads = if allowed.from.is_some() { allowed.all().or(Head::Function) } else { allowed.heads };
+                let heads =
+                    if allowed.from.is_some() { allowed.all().or(Head::Function) } else { allowed.heads };
                 self.types.store.narrow(value, heads).map_err(wrong)?;
                 let only_function = allowed.from.filter(|_| allowed.all().is_empty());
                 if let Some(from) = only_function {

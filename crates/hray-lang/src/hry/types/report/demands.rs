@@ -22,7 +22,7 @@ impl Infer<'_> {
             },
             Demand::Construct { record, constructor } => self.late_record(*record, constructor, origin),
             Demand::Slot { value, constructor, field } => {
-                self.wrong_slot(None, origin.span, *value, constructor, field, None, origin.via)
+                self.wrong_slot(None, origin.span, *value, constructor, field, None, origin.inside())
             }
         };
         self.report(error);
@@ -52,7 +52,7 @@ impl Infer<'_> {
         };
         let label = format!("`{}` {word} `{}`", self.show(left), self.show(right));
         let error = Diagnostic::error("wrong-operand", message, origin.span, label);
-        let error = match origin.via {
+        let error = match origin.inside() {
             Some(via) => error.with_secondary(via, "calculated here"),
             None => error,
         };
@@ -63,7 +63,7 @@ impl Infer<'_> {
         let message = format!("the field `{name}` is used as {}, which it is not", self.words(result));
         let label = format!("a field of `{}`", self.show(record));
         let error = Diagnostic::error("wrong-field", message, origin.detail, label);
-        match origin.via {
+        match origin.inside() {
             Some(via) => error.with_secondary(via, "used here"),
             None => error,
         }
@@ -78,7 +78,7 @@ impl Infer<'_> {
         let message = format!("`{name}` takes a record with named fields, but is given {} here", self.words(record));
         let error =
             Diagnostic::error("constructor-without-braces", message, origin.span, format!("found `{}`", self.show(record)));
-        let error = match origin.via {
+        let error = match origin.inside() {
             Some(via) => error.with_secondary(via, format!("goes to `{name}` here")),
             None => error,
         };

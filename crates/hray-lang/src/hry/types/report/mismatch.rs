@@ -38,7 +38,7 @@ impl<'p> Infer<'p> {
             return self.beside(error, why);
         }
         let told = self.told(found, expected, why);
-        let label = format!("expected `{}`, found `{}`", self.expected(expected, why), self.show(found));
+        let label = format!("expected {}, found `{}`", self.expected(expected, why), self.show(found));
         let mut error = Diagnostic::error(told.code, told.message, span, label);
         if let Some((place, text)) = told.beside {
             error = error.with_secondary(place, text);
@@ -52,7 +52,7 @@ impl<'p> Infer<'p> {
     /// Clashes that are not about two types that differ.
     fn special_clash(&self, span: Span, found: Ty, clash: Clash) -> Option<Diagnostic> {
         match clash {
-            Clash::Infinite(..) => {
+            Clash::Infinite => {
                 let message = "the type of this would contain itself without end";
                 let error = Diagnostic::error("infinite-type", message, span, format!("found `{}`", self.show(found)));
                 Some(error.with_help(
@@ -86,10 +86,14 @@ impl<'p> Infer<'p> {
     }
 
     fn expected(&self, expected: Ty, why: Why<'p>) -> String {
-        match why {
+        let written = match why {
             Why::Field { field, .. } if !self.is_part(expected, why) => Allowed::written(field),
-            _ => self.show(expected),
-        }
+            _ => match self.types.store.kind(expected) {
+                Some(kind) if kind.name().is_none() && !kind.is_any() => return kind.words(),
+                _ => self.show(expected),
+            },
+        };
+        format!("`{written}`")
     }
 
     /// Whether what is expected is a part of what a field takes: an element of its list.
@@ -131,18 +135,17 @@ impl<'p> Infer<'p> {
                 .beside(first, format!("the first case: `{}`", self.show(expected))),
             Why::Append { left } => told("wrong-operand", format!("`++` joins two of the same type: this is {is}, but the left side is {takes}"))
                 .beside(left, format!("the left side: `{}`", self.show(expected))),
-            Why::Joined(word) => told("wrong-operand", format!("`++` joins lists, or texts, but this is {is}")).beside(word, ""),
             Why::Annotation(span) => told("wrong-annotation", format!("the annotation says {takes}, but this is {is}"))
                 .beside(span, "the annotation"),
             Why::Field { constructor, field, name } => {
                 let owner = constructor.name;
                 if self.is_part(expected, why) {
                     let message = format!("`{}` of `{owner}` holds {}, but this is {is}", field.name, plural(field.name));
-                    return told("wrong-element", message).beside(name, format!("a `{}`", Allowed::written(field)));
+                    return told("wrong-element", message).beside(name, format!("takes `{}`", Allowed::written(field)));
                 }
                 let takes = field_words(field);
                 told("wrong-field", format!("`{}` of `{owner}` takes {takes}, but this is {is}", field.name))
-                    .beside(name, format!("takes a `{}`", Allowed::written(field)))
+                    .beside(name, format!("takes `{}`", Allowed::written(field)))
             }
             Why::Update { name, record } => {
                 told("wrong-field", format!("`{}` is {takes} and has to stay one, but this is {is}", name.text))
@@ -190,7 +193,6 @@ impl<'p> Infer<'p> {
             Clash::Kind(ty, kind) if store.find(ty) != store.find(found) => {
                 Some(format!("`{}` would have to be {}", self.show(ty), kind.words()))
             }
-            Clash::Kind(_, kind) => Some(format!("it would have to be {}", kind.words())),
             _ => None,
         }
     }

@@ -20,7 +20,8 @@ impl<'p> Infer<'p> {
         let word = written_operator(operator);
         for (expr, ty) in [left, right] {
             let store = &self.types.store;
-            if !store.is_error(ty) && store.heads(ty).meet(Kind::NUMERIC).is_empty() {
+            let rigid = matches!(store.get(ty), Node::Rigid { kind, .. } if !kind.within(Kind::NUMERIC));
+            if !store.is_error(ty) && (rigid || store.heads(ty).meet(Kind::NUMERIC).is_empty()) {
                 return self.not_numeric(word, span, expr, ty);
             }
         }
@@ -47,6 +48,9 @@ impl<'p> Infer<'p> {
         let label = format!("found `{}`", self.show(ty));
         let error = Diagnostic::error("wrong-operand", message, expr.span, label).with_secondary(span, "calculates");
         match self.types.store.get(ty) {
+            Node::Rigid { name, .. } => error.with_help(format!(
+                "the annotation says `{name}`, which may be anything; `numeric` stands for numbers, vectors and colours"
+            )),
             Node::Alone(Head::Text) if word == "+" => {
                 error.with_help("texts are joined by `++`; `show x` turns a number into text")
             }
@@ -110,9 +114,11 @@ impl<'p> Infer<'p> {
         left: &Expr,
         ty: Ty,
     ) -> Diagnostic {
-        let message = format!("`{}` cannot tell whether two of these are the same", written_operator(operator));
-        let error = Diagnostic::error("not-comparable", message, span, "compares numbers, vectors, colours, texts, truth values, and lists and records of them");
-        let error = error.with_secondary(left.span, format!("`{}`", self.show(ty)));
+        let message = format!("`{}` cannot compare {}", written_operator(operator), self.words_of_several(ty));
+        let label = "there is no telling whether two of them are the same";
+        let error = Diagnostic::error("not-comparable", message, span, label)
+            .with_secondary(left.span, format!("`{}`", self.show(ty)))
+            .with_note("what can be compared: numbers, vectors, colours, texts, truth values, and lists and records of them");
         match self.types.store.get(ty) {
             Node::Function(..) => error.with_help("compare what the functions give: `f x == g x`"),
             Node::Alone(Head::Hit) => error.with_help("compare its fields, such as `h.p`"),

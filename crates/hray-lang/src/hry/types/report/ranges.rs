@@ -23,7 +23,9 @@ fn constants(expr: &Expr) -> Vec<(f64, Span)> {
         ExprKind::Apply { .. } => {
             let (callee, arguments) = crate::hry::program::application(expr);
             match &callee.kind {
-                ExprKind::Name(name) if &**name == "rgb" => arguments.into_iter().filter_map(single).collect(),
+                ExprKind::Name(name) if &**name == "rgb" => {
+                    arguments.into_iter().filter_map(single).collect()
+                }
                 _ => Vec::new(),
             }
         }
@@ -33,7 +35,12 @@ fn constants(expr: &Expr) -> Vec<(f64, Span)> {
 
 impl Infer<'_> {
     /// Checks a value against the range of its field, as far as it stands there in numbers.
-    pub(in crate::hry::types) fn range(&mut self, constructor: &'static Constructor, field: &'static FieldSpec, expr: &Expr) {
+    pub(in crate::hry::types) fn range(
+        &mut self,
+        constructor: &'static Constructor,
+        field: &'static FieldSpec,
+        expr: &Expr,
+    ) {
         let values = constants(expr);
         if let Range::Direction = field.range {
             let is_zero = matches!(&expr.kind, ExprKind::Vector(parts) if parts.len() == values.len())
@@ -58,9 +65,12 @@ impl Infer<'_> {
 
     fn out_of_range(&mut self, constructor: &Constructor, field: &FieldSpec, span: Span, text: &str) {
         let message = format!("`{}` of `{}`: {text}", field.name, constructor.name);
-        let error = Diagnostic::error("out-of-range", message, span, "not allowed here").with_note(format!("`{}`: {}", field.name, field.doc));
+        let error = Diagnostic::error("out-of-range", message, span, "not allowed here")
+            .with_note(format!("`{}`: {}", field.name, field.doc));
         let error = match (field.name, field.unit) {
-            ("fov" | "angle", _) => error.with_help("angles are in radians; one in degrees is written `40deg`"),
+            ("fov" | "angle", _) => {
+                error.with_help("angles are in radians; one in degrees is written `40deg`")
+            }
             _ => error,
         };
         self.report(error);
@@ -78,18 +88,25 @@ fn problem(range: Range, value: f64) -> Option<Problem> {
         Range::Any | Range::Direction => None,
         Range::Positive | Range::Positives => error(value <= 0.0, format!("{value} is not greater than 0")),
         Range::NonNegative => error(value < 0.0, format!("{value} is below 0")),
-        Range::Between(low, high) => {
-            error(value <= low || value >= high, format!("{value} is not between {low} and {}", rounded(high)))
-        }
+        Range::Between(low, high) => error(
+            value <= low || value >= high,
+            format!("{value} is not between {low} and {}", rounded(high)),
+        ),
         Range::Whole(low, high) => {
             let outside = value < low || value > high;
-            let text = if outside { format!("{value} is not from {low} to {high}") } else { format!("{value} is not a whole number") };
+            let text = if outside {
+                format!("{value} is not from {low} to {high}")
+            } else {
+                format!("{value} is not a whole number")
+            };
             error(outside || value % 1.0 != 0.0, text)
         }
         Range::Share => {
             let help = "it is a share: 0 is nothing, 1 is all; 40% is 0.4";
             let wrong = !(0.0..=1.0).contains(&value);
-            wrong.then(|| Problem::Warning("share-range", format!("is a share from 0 to 1, but this is {value}"), help))
+            wrong.then(|| {
+                Problem::Warning("share-range", format!("is a share from 0 to 1, but this is {value}"), help)
+            })
         }
         Range::Light => {
             let help = "such a light takes light away; 0 is none";
