@@ -56,7 +56,7 @@ pub(crate) fn run(
     }
     let options = super::render::options(arguments)?;
     super::render::warn_of_another_shape(&options, job::description(&file)?, console);
-    let mut animation = Animation {
+    let animation = Animation {
         arguments,
         frames,
         options: &options,
