@@ -13,7 +13,7 @@ mod classic;
 mod console;
 mod convert;
 mod failure;
-//FMT mod fmt;
+mod fmt;
 mod generate;
 mod hints;
 mod info;
@@ -48,7 +48,7 @@ fn run(console: &Console) -> Result<(), Failure> {
         Some(Command::Render(arguments)) => render::run(arguments, console),
         Some(Command::Check(arguments)) => check::run(arguments, console),
         Some(Command::Info(arguments)) => info::run(arguments, console),
-        Some(Command::Fmt(_)) => Err(Failure::Told), //FMT
+        Some(Command::Fmt(arguments)) => fmt::run(arguments, console),
         Some(Command::Convert(arguments)) => convert::run(arguments, console),
         Some(Command::Completions { shell }) => generate::completions(*shell, console),
         Some(Command::Man { command }) => generate::man(command.as_deref(), console),

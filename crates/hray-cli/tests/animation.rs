@@ -36,7 +36,10 @@ fn frames_are_numbered_pictures_each_of_its_moment() {
     assert_eq!(folder.read("one-02.png"), folder.read("two.png"));
     folder.run("render moving.hry --frames 98..100 --size 4x2 -q").says(0, &[]);
     let names = folder.names();
-    assert!(["moving-0098.png", "moving-0100.png"].iter().all(|name| names.contains(&(*name).to_owned())), "{names:?}");
+    assert!(
+        ["moving-0098.png", "moving-0100.png"].iter().all(|name| names.contains(&(*name).to_owned())),
+        "{names:?}"
+    );
     folder.run("render moving.hry --frames 9..10 -o w#.ppm --ascii -q").says(0, &[]);
     assert!(folder.read("w10.ppm").starts_with(b"P3\n"));
 }

@@ -53,12 +53,16 @@ fn the_scene_says_how_many_samples_and_the_command_has_the_last_word() {
 #[test]
 fn settings_that_do_not_fit_are_refused() {
     let folder = folder();
-    folder.run("render row.hry --set coutn=1").says(1, &["there is no definition `coutn`", "did you mean `count`?"]);
+    folder
+        .run("render row.hry --set coutn=1")
+        .says(1, &["there is no definition `coutn`", "did you mean `count`?"]);
     folder.run("render row.hry --set count=").says(2, &["a setting is the name of a definition"]);
     folder.run("render row.hry --set count 3").says(2, &["a setting is the name of a definition"]);
     folder.run("render row.hry --set count=(").says(1, &["--set count:1:"]);
     folder.run("render row.hry --set count=red").says(1, &["error"]);
-    folder.run("render scene.hry --set count=3").says(1, &["a classic scene has no definitions", "hray convert"]);
+    folder
+        .run("render scene.hry --set count=3")
+        .says(1, &["a classic scene has no definitions", "hray convert"]);
     folder.run("row.hry a.ppm --set count=3").says(2, &["use `hray render row.hry -o a.ppm --set ...`"]);
     assert_eq!(folder.names(), ["row.hry", "scene.hry"]);
 }
@@ -72,7 +76,9 @@ fn files_are_imported_from_the_folder_and_errors_are_shown_in_them() {
     folder.run("render parts/deep/use.hry").says(1, &["leads out of the root folder", "--root FOLDER"]);
     folder.run("check parts/deep/use.hry --root parts").says(0, &["no errors, no warnings"]);
     folder.run("check parts/deep/use.hry --root .").says(0, &["no errors"]);
-    folder.run("check row.hry --root parts").says(1, &["the scene `row.hry` does not lie in the root folder `parts`"]);
+    folder
+        .run("check row.hry --root parts")
+        .says(1, &["the scene `row.hry` does not lie in the root folder `parts`"]);
     folder.run("check row.hry --root none").says(1, &["`none`"]);
     folder.run("check row.hry --root scene.hry").says(1, &["`scene.hry`"]);
 
@@ -88,9 +94,14 @@ fn files_are_imported_from_the_folder_and_errors_are_shown_in_them() {
     folder.write("parts/palette.hry", b"warm = \xff");
     folder.run("check lamp.hry").says(1, &["it is not UTF-8 text"]);
 
-    folder.run_with_input("check -", b"import \"row.hry\"\nscene = {}\n").says(1, &["in no file", "--root FOLDER"]);
     folder
-        .run_with_input("check - --root . --allow warnings", b"import \"row.hry\" (ball)\nscene = { objects = [ball 1] }\n")
+        .run_with_input("check -", b"import \"row.hry\"\nscene = {}\n")
+        .says(1, &["in no file", "--root FOLDER"]);
+    folder
+        .run_with_input(
+            "check - --root . --allow warnings",
+            b"import \"row.hry\" (ball)\nscene = { objects = [ball 1] }\n",
+        )
         .says(0, &["no errors"]);
 }
 
@@ -139,7 +150,8 @@ fn a_scene_that_never_ends_ends() {
     folder.run("check long.hry").says(0, &[]);
     folder.run("check long.hry --eval-list 50").says(1, &["--eval-list"]);
     folder.run("check long.hry --eval-steps 50").says(1, &["--eval-steps"]);
-    for wrong in ["--eval-steps 0", "--eval-depth 1e3", "--eval-list x", "--eval-memory -1", "--eval-nodes 0"] {
+    for wrong in ["--eval-steps 0", "--eval-depth 1e3", "--eval-list x", "--eval-memory -1", "--eval-nodes 0"]
+    {
         folder.run(&format!("check long.hry {wrong}")).says(2, &[]);
     }
 }
@@ -170,7 +182,9 @@ fn info_knows_what_hry_adds() {
     let folder = folder();
     let outcome = folder.run("info row.hry");
     outcome.says(0, &[]);
-    for line in ["samples      1 a pixel", "integrator   whitted", "encoding     srgb", "objects      3 (3 spheres"] {
+    for line in
+        ["samples      1 a pixel", "integrator   whitted", "encoding     srgb", "objects      3 (3 spheres"]
+    {
         assert!(outcome.stdout().contains(line), "{line}: {}", outcome.stdout());
     }
     let value: serde_json::Value = serde_json::from_str(folder.run("info row.hry --json").stdout()).unwrap();
@@ -195,10 +209,18 @@ fn findings_are_json_for_programs() {
     assert_eq!((&classic["severity"], &classic["labels"][0]["line"]), (&"error".into(), &5.into()));
     assert_eq!(of("none.hry")["labels"], serde_json::json!([]));
     let all = found.as_array().unwrap();
-    let spere = all.iter().find(|f| f["message"].as_str().unwrap().contains("spere") && f["file"] == "wrong.hry");
+    let spere =
+        all.iter().find(|f| f["message"].as_str().unwrap().contains("spere") && f["file"] == "wrong.hry");
     let label = &spere.unwrap()["labels"][0];
     assert_eq!(
-        [&label["line"], &label["column"], &label["end_line"], &label["end_column"], &label["start"], &label["end"]],
+        [
+            &label["line"],
+            &label["column"],
+            &label["end_line"],
+            &label["end_column"],
+            &label["start"],
+            &label["end"]
+        ],
         [2, 22, 2, 27, 29, 34]
     );
     assert_eq!(label["primary"], true);

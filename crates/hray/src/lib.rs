@@ -45,7 +45,7 @@
 mod assets;
 mod error;
 mod findings;
-//FMT mod format;
+mod format;
 mod options;
 mod picture;
 mod render;
@@ -54,7 +54,7 @@ mod summary;
 
 pub use error::{Error, LoadError};
 pub use findings::{Finding, FindingLabel, FindingPlace, FindingSuggestion, Findings};
-//FMT pub use format::{FormatErrors, Formatted, format_scene};
+pub use format::{FormatErrors, Formatted, format_scene};
 pub use options::{Options, OptionsError};
 pub use picture::Picture;
 pub use render::{render_frame, render_to, render_to_bytes, render_to_file, render_to_memory};
