@@ -45,6 +45,7 @@
 mod assets;
 mod error;
 mod findings;
+mod format;
 mod options;
 mod picture;
 mod render;
@@ -53,9 +54,10 @@ mod summary;
 
 pub use error::{Error, LoadError};
 pub use findings::{Finding, FindingLabel, FindingPlace, FindingSuggestion, Findings};
+pub use format::{FormatErrors, Formatted, format_scene};
 pub use options::{Options, OptionsError};
 pub use picture::Picture;
-pub use render::{render_to, render_to_bytes, render_to_file, render_to_memory};
+pub use render::{render_frame, render_to, render_to_bytes, render_to_file, render_to_memory};
 pub use scene_file::{LoadOptions, Moments, SceneFile, load};
 pub use summary::{Bounds, CameraSummary, Materials, Objects, Summary, WorstCase};
 
@@ -67,8 +69,8 @@ pub use hray_core::{
 };
 pub use hray_io::{
     AnimationFormat, AnimationWriter, Destination, Input, InputError, MAX_FPS, MAX_SOURCE_BYTES, MIN_FPS,
-    OutputError, PictureFormat, Quoted, TablesError, UnknownFormat, parse_noise_tables, read_noise_tables,
-    read_source, same_file, write_text,
+    OutputError, PictureFormat, Quoted, TablesError, UnknownFormat, create_folder, parse_noise_tables,
+    read_noise_tables, read_source, same_file, write_text,
 };
 pub use hray_lang::Language;
 pub use hray_lang::classic::write as write_classic;
