@@ -1,38 +1,34 @@
-//! Functions made ready for many points.
+//! A function made ready for many points at a time.
 
-use crate::{Function, Input, Node, NoiseTables};
+use crate::{Function, Input, NoiseTables};
 use fearless_simd::Level;
 
-/// A function with the noise that it uses.
-#[derive(Clone, Debug)]
+/// A function made ready for running many points at a time.
 pub struct Plan {
     function: Function,
     tables: NoiseTables,
     inputs: Vec<Input>,
 }
 
-/// What one thread needs to run plans.
-#[derive(Debug, Default)]
+/// Working memory of a [`Plan`], kept from call to call; one serves any plans in turn.
+#[derive(Default)]
 pub struct PlanScratch {}
 
 impl Plan {
-    /// Makes a function ready.
+    /// Lays out the noise that the function uses and decides in what order to compute what.
     #[must_use]
     pub fn new(function: &Function, tables: &NoiseTables) -> Self {
-        let mut inputs: Vec<Input> = Vec::new();
-        collect(function.nodes(), &mut inputs);
-        inputs.sort_unstable();
-        inputs.dedup();
-        Self { function: function.clone(), tables: tables.clone(), inputs }
+        Self { function: function.clone(), tables: tables.clone(), inputs: function.inputs_used().collect() }
     }
 
-    /// The inputs it needs.
+    /// The inputs that it needs.
     #[must_use]
     pub fn inputs(&self) -> &[Input] {
         &self.inputs
     }
 
-    /// The results at `len` points.
+    /// Evaluates at `len` points. Of `inputs`, those that [`Plan::inputs`] names hold at least `len` numbers, the
+    /// others may be empty; there are as many `outputs` as the function has, of at least `len` numbers each.
     pub fn evaluate(
         &self,
         _level: Level,
@@ -42,20 +38,13 @@ impl Plan {
         outputs: &mut [&mut [f64]],
     ) {
         for i in 0..len {
-            let at = std::array::from_fn(|input| inputs[input].get(i).copied().unwrap_or(0.0));
-            for (column, value) in outputs.iter_mut().zip(self.function.evaluate(&self.tables, &at)) {
-                column[i] = value;
+            let mut at = [0.0; Input::COUNT];
+            for input in &self.inputs {
+                at[*input as usize] = inputs[*input as usize][i];
             }
-        }
-    }
-}
-
-fn collect(nodes: &[Node], inputs: &mut Vec<Input>) {
-    for node in nodes {
-        match node {
-            Node::Input(input) => inputs.push(*input),
-            Node::Block(crate::Block::Loop(body), _) => collect(&body.nodes, inputs),
-            _ => {}
+            for (output, value) in outputs.iter_mut().zip(self.function.evaluate(&self.tables, &at)) {
+                output[i] = value;
+            }
         }
     }
 }

@@ -214,12 +214,6 @@ impl Noise {
         f64x8::from_slice(simd, self.pair(edge))
     }
 
-    /// Noise at one point given in cells: what the lanes are compared with.
-    #[must_use]
-    pub fn at(&self, table: usize, p: [f64; 3]) -> f64 {
-        self.noise_one(table, p)
-    }
-
     /// Noise at one point given in cells: the definition, for coordinates that the lanes cannot take.
     fn noise_one(&self, table: usize, [x, y, z]: [f64; 3]) -> f64 {
         let curve = |t: f64| t * t * (3.0 - 2.0 * t);

@@ -2,6 +2,7 @@
 
 pub mod assets;
 pub mod ast;
+mod convert;
 pub mod eval;
 pub mod ide;
 pub mod library;
@@ -10,5 +11,6 @@ mod sources;
 pub mod syntax;
 pub mod types;
 
+pub use convert::convert;
 pub use program::Program;
 pub use sources::{STANDARD_BASE, SourceFile, Sources};

@@ -52,11 +52,12 @@ pub fn parse(text: &str, base: usize) -> Parse {
         return Parse { text: Arc::from(""), base, tokens: Vec::new(), nodes: Vec::new(), errors };
     }
     let (mut tokens, mut errors) = lexer::lex(text, base);
-    let brackets = brackets::check(text, base, &mut tokens);
+    let brackets = brackets::check(base, &mut tokens);
     let (nodes, found) = parser::parse(text, base, &tokens, &brackets);
     errors.extend(brackets.errors);
     errors.extend(found);
-    Parse { text: Arc::from(text), base, tokens, nodes, errors: parser::tidy(errors) }
+    let errors = complaint::tidy(text, base, errors);
+    Parse { text: Arc::from(text), base, tokens, nodes, errors }
 }
 
 impl Parse {

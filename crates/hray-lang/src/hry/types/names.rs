@@ -32,6 +32,20 @@ pub(super) struct Local {
     /// Whether it is bound by `let`.
     pub(super) is_let: bool,
     pub(super) is_used: bool,
+    /// Of a parameter of a definition: whether fields of a hit are read from it that tell that it is one, and no others.
+    pub(super) fields: Fields,
+}
+
+/// The fields that are read from a local.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) enum Fields {
+    /// None that tell anything.
+    #[default]
+    None,
+    /// Those of a hit, one of which tells.
+    OfAHit,
+    /// Others, too.
+    Others,
 }
 
 /// The meanings of all names of a program's own modules.
@@ -199,7 +213,7 @@ impl Resolver<'_> {
             }
         }
         let local = self.names.locals.len();
-        self.names.locals.push(Local { name: name.clone(), span, scope, is_let, is_used: false });
+        self.names.locals.push(Local { name: name.clone(), span, scope, is_let, is_used: false, fields: Fields::None });
         self.names.bound.insert(span.start, local);
         self.scopes.entry(name.clone()).or_default().push(local);
         locals.push(local);
@@ -290,6 +304,19 @@ impl Resolver<'_> {
         }
     }
 
+    /// A field is read from something.
+    fn field(&mut self, record: &Expr, name: &str) {
+        let Some(Meaning::Local(local)) = self.names.uses.get(&record.span.start) else { return };
+        if let (ExprKind::Name(_), Some(local)) = (&record.kind, self.names.locals.get_mut(*local)) {
+            local.fields = match (local.fields, name) {
+                (Fields::Others, _) => Fields::Others,
+                (_, "p" | "world" | "normal") => Fields::OfAHit,
+                (known, "uv" | "time") => known,
+                _ => Fields::Others,
+            };
+        }
+    }
+
     fn mark(&mut self, local: usize) {
         if let Some(local) = self.names.locals.get_mut(local) {
             local.is_used = true;
@@ -341,11 +368,13 @@ impl Resolver<'_> {
             ExprKind::Record(fields) => fields.iter().for_each(|field| self.expr(&field.value)),
             ExprKind::Update { record, fields } => {
                 self.expr(record);
+                fields.iter().for_each(|field| self.field(record, &field.name.text));
                 fields.iter().for_each(|field| self.expr(&field.value));
             }
             ExprKind::Field { record, name } => {
                 if !self.qualified(record, name) {
                     self.expr(record);
+                    self.field(record, &name.text);
                 }
             }
             ExprKind::Apply { function, argument } => {

@@ -1,8 +1,8 @@
 //! Types as text: as hry writes them, and in words.
 
 use super::infer::written_operator;
-use super::kind::{Head, Kind};
-use super::scheme::{Access, Demand, Scheme};
+use super::kind::Kind;
+use super::scheme::{Demand, Scheme};
 use super::store::{Node, Store, Ty};
 use crate::hry::ast::BinaryOperator;
 use std::collections::{BTreeMap, HashMap, HashSet};
@@ -43,30 +43,32 @@ impl<'s> Printer<'s> {
                     let sides = [self.show(*left), self.show(*right), self.show(*result)];
                     demands.push(format!("{} {sum} {} : {}", sides[0], sides[1], sides[2]));
                 }
-                Demand::Field { record, name, result, access } => {
+                Demand::Field { record, name, result, .. } => {
                     let (record, result) = (self.show(*record), self.show(*result));
-                    let _ = access == &Access::Read;
                     fields.insert(format!("{record}.{name}"), result);
                 }
                 Demand::Construct { record, constructor } => {
-                    demands.push(format!("{} {{ .. }} : {}", constructor.name, self.show(*record)));
+                    demands.push(format!("{} fits `{}`", self.show(*record), constructor.name));
                 }
                 Demand::Slot { value, constructor, field } => {
-                    demands.push(format!("{}.{} : {}", constructor.name, field.name, self.show(*value)));
+                    demands.push(format!("{} fits `{}` of `{}`", self.show(*value), field.name, constructor.name));
                 }
             }
         }
-        demands.extend(fields.into_iter().map(|(field, ty)| format!("{field} : {ty}")));
+        let fields: Vec<String> = fields.into_iter().map(|(field, ty)| format!("{field} : {ty}")).collect();
         for variable in &scheme.bound {
             let Some(kind) = self.store.kind(*variable) else { continue };
             let special = !kind.is_any() && kind.name().is_none() && kind != Kind::EQUATABLE;
             let variable = self.show(*variable);
-            let is_record =
-                kind.meet(Kind::of(&[Head::Record])) == Kind::of(&[Head::Record]) && !demands.is_empty();
-            if special && !is_record {
+            // That something is a record, or fits a field, follows from what is said already.
+            let follows = |text: &String| {
+                text.starts_with(&format!("{variable}.")) || text.starts_with(&format!("{variable} fits"))
+            };
+            if special && !fields.iter().any(follows) && !demands.iter().any(follows) {
                 demands.push(format!("{variable} is {}", kind.words()));
             }
         }
+        demands.splice(0..0, fields);
         demands.dedup();
         if !demands.is_empty() {
             text.push_str(" where ");
@@ -165,11 +167,14 @@ impl<'s> Printer<'s> {
         }
     }
 
+    /// A type in words, several of it.
+    pub(super) fn several(&mut self, ty: Ty) -> String {
+        self.plural(ty).unwrap_or_else(|| "these".into())
+    }
+
     fn plural(&mut self, ty: Ty) -> Option<String> {
         match self.store.get(ty) {
-            Node::List(of) => {
-                Some(self.plural(*of).map_or_else(|| "lists".into(), |of| format!("lists of {of}")))
-            }
+            Node::List(of) => Some(self.plural(*of).map_or_else(|| "lists".into(), |of| format!("lists of {of}"))),
             Node::Function(..) => Some(format!("functions (`{}`)", self.show(ty))),
             Node::Record(_) => Some("records".into()),
             _ => self.store.head(ty).map(|head| head.plural().into()),

@@ -4,6 +4,7 @@ use super::store::{Store, Ty};
 use crate::diagnostic::Span;
 use crate::hry::ast::BinaryOperator;
 use crate::hry::library::{Constructor, FieldSpec};
+use crate::hry::sources::STANDARD_BASE;
 use std::sync::Arc;
 
 /// The type of a definition, for all values of its variables.
@@ -41,6 +42,13 @@ pub(super) struct Origin {
     pub(super) via: Option<Span>,
     /// The place of an operator, or of the name of a field.
     pub(super) detail: Span,
+}
+
+impl Origin {
+    /// Where inside a function of the user's own files the demand is really made.
+    pub(super) fn inside(&self) -> Option<Span> {
+        self.via.filter(|via| via.start < STANDARD_BASE)
+    }
 }
 
 /// How a field is used.

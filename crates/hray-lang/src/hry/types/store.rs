@@ -54,7 +54,7 @@ pub(super) enum Clash {
     /// A type is none of those that are allowed.
     Kind(Ty, Kind),
     /// A type would contain itself.
-    Infinite(Ty, Ty),
+    Infinite,
     /// A variable of an annotation would leave it.
     Escape(Ty),
     /// Nested too deeply.
@@ -307,7 +307,7 @@ impl Store {
         while let Some(next) = open.pop() {
             let next = self.find(next);
             if next == variable {
-                return Err(Clash::Infinite(variable, ty));
+                return Err(Clash::Infinite);
             }
             if !self.mark(next) {
                 continue;

@@ -183,6 +183,15 @@ const FOREIGN: &[Foreign] = &[
     Foreign("zip", "", "`zipWith f a b` goes through two lists at once"),
 ];
 
+/// The name that was probably meant. Names of one letter are near to nothing.
+pub(super) fn near<'n>(name: &str, names: impl Iterator<Item = &'n str>) -> Option<&'n str> {
+    let is_short = |name: &str| name.chars().count() < 2;
+    if is_short(name) {
+        return names.into_iter().find(|other| *other != name && other.to_lowercase() == name.to_lowercase());
+    }
+    nearest(name, names.filter(|other| !is_short(other)))
+}
+
 /// The complaint about a name that means nothing.
 pub(super) fn name(name: &str, span: Span, module: &LoadedModule, locals: &[&str]) -> Diagnostic {
     let error = Diagnostic::error("unknown-name", format!("there is no `{name}` here"), span, "not defined");
@@ -196,7 +205,7 @@ pub(super) fn name(name: &str, span: Span, module: &LoadedModule, locals: &[&str
     }
     let all = module.scope.all();
     let known = locals.iter().copied().chain(all.iter().map(|(name, _)| &**name));
-    if let Some(near) = nearest(name, known) {
+    if let Some(near) = near(name, known) {
         return error.with_suggestion(span, near, format!("did you mean `{near}`?"));
     }
     if let Some(qualified) = qualified_home(name, module) {
@@ -246,7 +255,7 @@ pub(super) fn qualified(
     let error = Diagnostic::error("unknown-name", message, name.span, "not defined there");
     let mut all: Vec<&str> = names.keys().map(AsRef::as_ref).collect();
     all.sort_unstable();
-    match nearest(&name.text, all.iter().copied()) {
+    match near(&name.text, all.iter().copied()) {
         Some(near) => error.with_suggestion(name.span, near, format!("did you mean `{near}`?")),
         None if all.is_empty() => error.with_help("that file defines nothing"),
         None => error.with_help(format!("it defines {}", listed(&all))),

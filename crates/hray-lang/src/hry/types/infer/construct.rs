@@ -78,7 +78,7 @@ impl<'p> Infer<'p> {
                     self.field_value(constructor, field, value)
                 }
                 None => {
-                    self.unknown_constructor_field(constructor, &name.text, name.span, None);
+                    self.unknown_constructor_field(constructor, &name.text, name.span, None, true);
                     self.expr(&value.value, None)
                 }
             };

@@ -75,7 +75,7 @@ impl<'p> Infer<'p> {
             ExprKind::Update { record, fields } => self.update(record, fields),
             ExprKind::Field { record, name } => self.field_read(expr, record, name),
             ExprKind::Unary { operator: UnaryOperator::Not, operand } => {
-                let span = Span::new(expr.span.start, operand.span.start);
+                let span = Span::new(expr.span.start, expr.span.start + "not".len());
                 self.expr(operand, Some((Ty::BOOL, Why::Logic(span, "not"))));
                 Ty::BOOL
             }

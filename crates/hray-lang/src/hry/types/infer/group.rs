@@ -5,6 +5,7 @@ use super::{Infer, Why};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::hry::ast::{Definition, PatternKind};
 use crate::hry::types::graph::components;
+use crate::hry::types::names::Fields;
 use crate::hry::types::scheme::Binding;
 use crate::hry::types::store::Ty;
 use std::sync::Arc;
@@ -197,8 +198,19 @@ impl<'p> Infer<'p> {
     pub(super) fn body(&mut self, definition: &'p Definition, (parameters, result): &(Vec<Ty>, Ty)) {
         for (pattern, ty) in definition.parameters.iter().zip(parameters) {
             self.pattern(pattern, *ty, pattern.span, false);
+            // Generalisation would find it to be a hit; knowing it before the body makes for better errors there.
+            let local = self.names.bound.get(&pattern.span.start).and_then(|local| self.names.locals.get(*local));
+            if local.is_some_and(|local| local.span == pattern.span && local.fields == Fields::OfAHit) {
+                let _ = self.unify(*ty, Ty::HIT);
+            }
         }
+        let errors = self.errors;
         let found = self.expr(&definition.body, None);
+        // After an error in the body, that it does not agree with its use inside is no news.
+        if self.errors > errors {
+            let _ = self.unify(found, *result);
+            return;
+        }
         self.settle(&definition.body, found, Some((*result, Why::Recursion(definition.target.span))));
     }
 
@@ -212,7 +224,6 @@ impl<'p> Infer<'p> {
                     if !self.types.store.is_error(expected) {
                         self.too_many_parameters(definition, pattern.span, ty, annotation);
                     }
-                    expected = Ty::ERROR;
                     (Ty::ERROR, Ty::ERROR)
                 }
             };

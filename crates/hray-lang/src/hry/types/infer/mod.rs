@@ -65,8 +65,6 @@ pub(super) enum Why<'p> {
     Arm { first: Span },
     /// What `++` joins to the left operand.
     Append { left: Span },
-    /// The operand of `++`.
-    Joined(Span),
     /// An annotation.
     Annotation(Span),
     /// A field of a constructor.
@@ -90,7 +88,9 @@ pub(super) struct Infer<'p> {
     pub(super) names: &'p Names,
     pub(super) types: Types,
     pub(super) diagnostics: Vec<Diagnostic>,
-    /// How many errors were not shown.
+    /// How many errors there were.
+    errors: usize,
+    /// How many of them are not shown.
     pub(super) more_errors: usize,
     /// The types of expressions and names.
     pub(super) notes: Vec<(Span, Ty)>,
@@ -128,6 +128,7 @@ impl<'p> Infer<'p> {
             names,
             types,
             diagnostics: Vec::new(),
+            errors: 0,
             more_errors: 0,
             notes: Vec::new(),
             fields: Vec::new(),
@@ -150,8 +151,10 @@ impl<'p> Infer<'p> {
     }
 
     pub(super) fn report(&mut self, diagnostic: Diagnostic) {
-        let errors = self.diagnostics.len();
-        if diagnostic.is_error() && errors >= MOST_ERRORS {
+        if diagnostic.is_error() {
+            self.errors += 1;
+        }
+        if diagnostic.is_error() && self.errors > MOST_ERRORS {
             self.more_errors += 1;
         } else {
             self.diagnostics.push(diagnostic);

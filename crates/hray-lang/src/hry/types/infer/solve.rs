@@ -13,7 +13,7 @@ use std::sync::Arc;
 #[derive(Clone, Copy, Debug)]
 pub(in crate::hry::types) enum Failure {
     /// Types that do not agree.
-    Clash(Clash),
+    Clash,
     /// There is no such field.
     NoField,
     /// The operands do not go together.
@@ -21,12 +21,12 @@ pub(in crate::hry::types) enum Failure {
     /// A constructor was given no record.
     NotARecord,
     /// A field of a constructor does not take that.
-    Slot(Ty),
+    Slot,
 }
 
 impl From<Clash> for Failure {
-    fn from(clash: Clash) -> Self {
-        Self::Clash(clash)
+    fn from(_: Clash) -> Self {
+        Self::Clash
     }
 }
 
@@ -222,7 +222,7 @@ impl Infer<'_> {
                     self.pending.push(id);
                     self.attempt(id);
                 }
-                None => self.unknown_constructor_field(constructor, name, origin.span, origin.via),
+                None => self.unknown_constructor_field(constructor, name, origin.span, origin.via, false),
             }
         }
         let given: Vec<&str> = fields.iter().map(|field| &*field.0).collect();
@@ -232,7 +232,7 @@ impl Infer<'_> {
     /// A value that a field of a constructor takes.
     pub(super) fn slot(&mut self, value: Ty, field: &'static FieldSpec) -> Decided {
         let allowed = Allowed::of(field);
-        let wrong = |_: Clash| Failure::Slot(value);
+        let wrong = |_: Clash| Failure::Slot;
         if let Some(of) = allowed.list {
             let list = self.types.store.list(of);
             self.types.store.unify(value, list).map_err(wrong)?;
@@ -240,7 +240,7 @@ impl Infer<'_> {
         }
         match self.types.store.get(value).clone() {
             Node::Function(from, to) => {
-                let taken = allowed.from.ok_or(Failure::Slot(value))?;
+                let taken = allowed.from.ok_or(Failure::Slot)?;
                 self.types.store.unify(from, taken).map_err(wrong)?;
                 self.types.store.narrow(to, allowed.heads).map_err(wrong)?;
                 Ok(true)

@@ -3,7 +3,7 @@
 use super::super::infer::{Infer, counted};
 use super::super::kind::Head;
 use super::super::store::{Node, Ty};
-use crate::diagnostic::{Diagnostic, Span};
+use crate::diagnostic::{Diagnostic, Span, Suggestion};
 use crate::hry::ast::{Expr, ExprKind, UnaryOperator};
 
 impl<'p> Infer<'p> {
@@ -119,6 +119,39 @@ impl<'p> Infer<'p> {
             }
             (ExprKind::Record(_), Node::Alone(_)) => error.with_help("is a comma missing before the record?"),
             _ => error.with_help("is an operator or a comma missing before it?"),
+        }
+    }
+
+    /// Adds to a complaint that the arguments fit in another order.
+    pub(in crate::hry::types) fn suggest_order(&mut self, complaint: usize, callee: &Expr, arguments: &[&'p Expr]) {
+        let piped = arguments.iter().any(|argument| argument.span.end <= callee.span.start);
+        let words: Option<Vec<&str>> = arguments.iter().map(|argument| self.quoted(argument.span)).collect();
+        let swapped = match (arguments, words.as_deref()) {
+            ([first, second], Some([a, b])) if !piped => Some((first.span.to(second.span), format!("{b} {a}"))),
+            _ => None,
+        };
+        let Some(error) = self.diagnostics.get_mut(complaint) else { return };
+        error.help = None;
+        match swapped {
+            Some((span, replacement)) => {
+                let text = "the arguments fit in the other order:".to_owned();
+                error.suggestion = Some(Suggestion { span, replacement, text });
+            }
+            None => error.help = Some("are the arguments in the wrong order?".into()),
+        }
+    }
+
+    /// Adds to a complaint about `g` in `f g x` that `f (g x)` was probably meant.
+    pub(in crate::hry::types) fn suggest_parentheses(&mut self, complaint: usize, arguments: &[&'p Expr], index: usize) {
+        let rest = arguments.get(index..).unwrap_or_default();
+        let (Some(first), Some(last)) = (rest.first(), rest.last()) else { return };
+        let span = first.span.to(last.span);
+        let Some(text) = self.quoted(span) else { return };
+        let replacement = format!("({text})");
+        if let Some(error) = self.diagnostics.get_mut(complaint) {
+            error.help = None;
+            let text = "an argument that is itself a call needs parentheses:".to_owned();
+            error.suggestion = Some(Suggestion { span, replacement, text });
         }
     }
 

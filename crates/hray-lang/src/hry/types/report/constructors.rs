@@ -1,15 +1,16 @@
 //! Constructors that are not given what they take.
 
 use super::super::infer::{Allowed, Infer};
-use super::super::kind::Head;
+use super::super::kind::{Head, Kind};
 use super::super::store::{Node, Ty};
-use super::super::unknown::field_synonym;
+use super::super::unknown::{field_synonym, near};
 use super::hints::field_for;
 use super::mismatch::field_words;
 use crate::diagnostic::{Diagnostic, Span};
 use crate::hry::ast::Expr;
 use crate::hry::library::{CONSTRUCTORS, Constructor, FieldSpec, FieldType};
-use crate::hry::program::{listed, nearest};
+use crate::hry::program::listed;
+use crate::hry::sources::STANDARD_BASE;
 
 impl<'p> Infer<'p> {
     /// Reports a field that a constructor does not have.
@@ -19,24 +20,24 @@ impl<'p> Infer<'p> {
         name: &str,
         span: Span,
         via: Option<Span>,
+        is_name: bool,
     ) {
         let owner = constructor.name;
         let article = if owner == "scene" { "a scene" } else { "" };
         let whose = if article.is_empty() { format!("`{owner}`") } else { article.to_owned() };
-        let label = if via.is_some() { "by the record that is given here" } else { "no such field" };
-        let mut error =
-            Diagnostic::error("unknown-field", format!("{whose} has no field `{name}`"), span, label);
-        if let Some(via) = via {
+        let label = if is_name { "no such field" } else { "the record given here has one" };
+        let mut error = Diagnostic::error("unknown-field", format!("{whose} has no field `{name}`"), span, label);
+        if let Some(via) = via.filter(|via| via.start < STANDARD_BASE) {
             error = error.with_secondary(via, format!("the record goes to `{owner}` here"));
         }
         let names: Vec<&str> = constructor.fields.iter().map(|field| field.name).collect();
         let all = format!("{whose} has {}", listed(&names));
-        let near = nearest(name, names.iter().copied()).or_else(|| field_synonym(constructor, name));
+        let near = meant_field(constructor, name);
         let error = match near {
             Some("material") if matches!(name, "color" | "colour" | "texture" | "pigment" | "reflection" | "shine") => error
                 .with_help(format!("colours and the like belong to the material: `{owner} {{ material = classic {{ color = ... }} }}`"))
                 .with_note(all),
-            Some(near) if via.is_none() => {
+            Some(near) if is_name => {
                 error.with_note(all).with_suggestion(span, near, format!("did you mean `{near}`?"))
             }
             Some(near) => error.with_note(all).with_help(format!("did you mean `{near}`?")),
@@ -56,11 +57,13 @@ impl<'p> Infer<'p> {
         span: Span,
         via: Option<Span>,
     ) {
-        let missing: Vec<&FieldSpec> = constructor
-            .fields
-            .iter()
-            .filter(|field| field.default.is_none() && !given.contains(&field.name))
-            .collect();
+        // A misspelt field was reported, so it is not missing as well.
+        let unknown = given.iter().filter(|name| constructor.field(name).is_none());
+        let meant: Vec<&str> = unknown.filter_map(|name| meant_field(constructor, name)).collect();
+        let is_missing = |field: &&FieldSpec| {
+            field.default.is_none() && !given.contains(&field.name) && !meant.contains(&field.name)
+        };
+        let missing: Vec<&FieldSpec> = constructor.fields.iter().filter(is_missing).collect();
         let Some(first) = missing.first() else { return };
         let owner = constructor.name;
         let names: Vec<&str> = missing.iter().map(|field| field.name).collect();
@@ -68,9 +71,8 @@ impl<'p> Infer<'p> {
             [one] => format!("`{owner}` needs the field `{one}`, which is not given"),
             several => format!("`{owner}` needs the fields {}, which are not given", listed(several)),
         };
-        let mut error =
-            Diagnostic::error("missing-field", message, span, format!("without `{}`", first.name));
-        if let Some(via) = via {
+        let mut error = Diagnostic::error("missing-field", message, span, format!("without `{}`", first.name));
+        if let Some(via) = via.filter(|via| via.start < STANDARD_BASE) {
             error = error.with_secondary(via, format!("the record goes to `{owner}` here"));
         }
         for field in &missing {
@@ -91,13 +93,8 @@ impl<'p> Infer<'p> {
         let name = constructor.name;
         let message = format!("`{name}` takes a record with named fields, but this is {}", self.words(ty));
         let span = arguments.first().map_or(expr.span, |argument| argument.span);
-        let error = Diagnostic::error(
-            "constructor-without-braces",
-            message,
-            span,
-            format!("found `{}`", self.show(ty)),
-        )
-        .with_secondary(callee.span, "its fields are given by name, in braces");
+        let error = Diagnostic::error("constructor-without-braces", message, span, format!("found `{}`", self.show(ty)))
+            .with_secondary(callee.span, "its fields are given by name, in braces");
         let piped = span.end <= callee.span.start;
         if let (Some(fields), false) = (self.guessed_fields(constructor, arguments), piped) {
             let last = arguments.last().map_or(span, |argument| argument.span);
@@ -148,20 +145,15 @@ impl<'p> Infer<'p> {
         name: Option<Span>,
         via: Option<Span>,
     ) -> Diagnostic {
-        let message = format!(
-            "`{}` of `{}` takes {}, but this is {}",
-            field.name,
-            constructor.name,
-            field_words(field),
-            self.words(ty)
-        );
+        let message =
+            format!("`{}` of `{}` takes {}, but this is {}", field.name, constructor.name, field_words(field), self.words(ty));
         let written = Allowed::written(field);
         let label = format!("expected `{written}`, found `{}`", self.show(ty));
         let mut error = Diagnostic::error("wrong-field", message, span, label);
         if let Some(name) = name {
-            error = error.with_secondary(name, format!("takes a `{written}`"));
+            error = error.with_secondary(name, format!("takes `{written}`"));
         }
-        if let Some(via) = via {
+        if let Some(via) = via.filter(|via| via.start < STANDARD_BASE) {
             error = error.with_secondary(via, format!("it goes to `{}` here", constructor.name));
         }
         self.slot_hint(error, expr, span, ty, field)
@@ -176,27 +168,27 @@ impl<'p> Infer<'p> {
         field: &'static FieldSpec,
     ) -> Diagnostic {
         let allowed = Allowed::of(field);
-        let plain =
-            allowed.heads.heads().find(|head| *head != Head::Number).or_else(|| allowed.heads.heads().next());
+        let plain = allowed.heads.heads().find(|head| *head != Head::Number).or_else(|| allowed.heads.heads().next());
         if let Node::Function(given, _) = self.types.store.get(ty) {
             let store = &self.types.store;
             let Some(taken) = allowed.from else {
                 let takes_hit = store.head(*given) == Some(Head::Hit);
                 if takes_hit && matches!(field.kind, FieldType::Number | FieldType::Color | FieldType::Vec3) {
-                    let help =
-                        "this field has one value for the whole surface; it cannot vary from hit to hit";
+                    let help = "this field has one value for the whole surface; it cannot vary from hit to hit";
                     return error.with_help(help);
                 }
-                return plain
-                    .map_or(error.clone(), |head| self.hint(error, expr, span, ty, Ty::alone(head), None));
+                return plain.map_or(error.clone(), |head| self.hint(error, expr, span, ty, Ty::alone(head), None));
             };
-            if store.head(*given) != store.head(taken) {
+            if !store.heads(*given).has(store.head(taken).unwrap_or(Head::Hit)) {
                 return match self.other_or_missing(expr, ty, taken) {
                     Some(help) => error.with_help(help),
                     None => self.function_hint(error, span, ty, taken),
                 };
             }
-            return error.with_help("what the function gives is not what the field takes");
+            let (_, result) = self.types.store.parameters(ty);
+            let plain = plain.map_or("something else", Head::words);
+            let gives = format!("the function gives {}, but has to give {plain}", self.words(result));
+            return error.with_help(gives);
         }
         if field.kind == FieldType::Height {
             return error.with_help("bumps are a function: `bump = \\h -> 0.02 * sin (h.p.x * 40)`");
@@ -220,14 +212,13 @@ impl<'p> Infer<'p> {
         let which = if names.len() == before { format!(" ({})", names.join(", ")) } else { String::new() };
         let more = if arguments.is_empty() { "" } else { "still " };
         let count = super::super::infer::counted(before, "argument");
-        Some(format!(
-            "`{name}` {more}needs {count}{which} before the {}",
-            if taken == Ty::HIT { "hit" } else { "direction" }
-        ))
+        Some(format!("`{name}` {more}needs {count}{which} before the {}", if taken == Ty::HIT { "hit" } else { "direction" }))
     }
 
     fn function_hint(&self, error: Diagnostic, span: Span, ty: Ty, taken: Ty) -> Diagnostic {
-        match (self.types.store.parameters(ty).0.first().and_then(|first| self.types.store.head(*first)), taken) {
+        let heads = self.types.store.parameters(ty).0.first().map(|first| self.types.store.heads(*first));
+        let likely = [Head::Vec3, Head::Vec2].into_iter().find(|head| heads.is_some_and(|heads| heads.has(*head)));
+        match (likely.or_else(|| heads.and_then(Kind::only)), taken) {
             (Some(Head::Vec3), Ty::HIT) => self.place_of_hit(error, span, "h.p", "the function takes a place; to give it the place of the hit:"),
             (Some(Head::Vec2), Ty::HIT) => {
                 self.place_of_hit(error, span, "h.uv", "the function takes a vector of two; to give it the surface coordinates of the hit:")
@@ -251,12 +242,8 @@ impl<'p> Infer<'p> {
 
     /// A `scene` that is no scene.
     pub(in crate::hry::types) fn wrong_scene(&self, body: &'p Expr, ty: Ty) -> Diagnostic {
-        let message = format!(
-            "`scene` is a record, or a function from the time in seconds to one, but this is {}",
-            self.words(ty)
-        );
-        let error =
-            Diagnostic::error("wrong-scene", message, body.span, format!("found `{}`", self.show(ty)));
+        let message = format!("`scene` is a record, or a function from the time in seconds to one, but this is {}", self.words(ty));
+        let error = Diagnostic::error("wrong-scene", message, body.span, format!("found `{}`", self.show(ty)));
         match (self.types.store.get(ty), self.quoted(body.span)) {
             (Node::Alone(Head::Shape), Some(text)) => {
                 error.with_suggestion(body.span, format!("{{ objects = [{text}] }}"), "shapes are the objects of a scene:")
@@ -269,10 +256,14 @@ impl<'p> Infer<'p> {
     }
 }
 
+/// The field that was probably meant.
+fn meant_field(constructor: &'static Constructor, name: &str) -> Option<&'static str> {
+    near(name, constructor.fields.iter().map(|field| field.name)).or_else(|| field_synonym(constructor, name))
+}
+
 /// Another constructor, of the same kind of thing, that has such a field.
 fn elsewhere(constructor: &Constructor, name: &str) -> Option<&'static str> {
-    let others =
-        CONSTRUCTORS.iter().filter(|other| other.name != constructor.name && other.field(name).is_some());
+    let others = CONSTRUCTORS.iter().filter(|other| other.name != constructor.name && other.field(name).is_some());
     let mut others: Vec<&Constructor> = others.collect();
     others.sort_by_key(|other| other.makes != constructor.makes);
     others.first().map(|other| other.name)

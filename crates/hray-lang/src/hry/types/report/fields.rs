@@ -6,7 +6,8 @@ use super::super::scheme::Access;
 use super::super::store::{Node, Ty};
 use crate::diagnostic::Diagnostic;
 use crate::hry::ast::Expr;
-use crate::hry::program::{listed, nearest};
+use super::super::unknown::near;
+use crate::hry::program::listed;
 
 impl<'p> Infer<'p> {
     /// `record.name`, where the record has no such field.
@@ -20,6 +21,10 @@ impl<'p> Infer<'p> {
     ) -> Diagnostic {
         let is = self.words(ty);
         let message = match (access, self.types.store.get(ty)) {
+            _ if origin.via.is_some() => {
+                let user = self.quoted(origin.span).unwrap_or("this function");
+                format!("`{user}` uses the field `{name}` of what it is given, but {is} has none")
+            }
             (Access::Whole, Node::Alone(Head::Vec2 | Head::Vec3 | Head::Color)) => {
                 format!("only records and hits are taken apart or changed by fields, but this is {is}")
             }
@@ -27,7 +32,8 @@ impl<'p> Infer<'p> {
             (_, Node::Record(_)) => format!("this record has no field `{name}`"),
             _ => format!("{is} has no field `{name}`"),
         };
-        let mut error = Diagnostic::error("unknown-field", message, origin.detail, "no such field");
+        let label = if origin.via.is_some() { "is given something without the field" } else { "no such field" };
+        let mut error = Diagnostic::error("unknown-field", message, origin.detail, label);
         match record {
             Some(record) => error = error.with_secondary(record.span, format!("`{}`", self.show(ty))),
             None if origin.span != origin.detail => {
@@ -35,20 +41,13 @@ impl<'p> Infer<'p> {
             }
             None => {}
         }
-        if let Some(via) = origin.via {
-            error = error.with_secondary(via, "the field is needed here");
+        if let Some(via) = origin.inside() {
+            error = error.with_secondary(via, "the field is used here");
         }
         self.field_hint(error, ty, name, access, origin)
     }
 
-    fn field_hint(
-        &self,
-        error: Diagnostic,
-        ty: Ty,
-        name: &str,
-        access: Access,
-        origin: Origin,
-    ) -> Diagnostic {
+    fn field_hint(&self, error: Diagnostic, ty: Ty, name: &str, access: Access, origin: Origin) -> Diagnostic {
         let names: Vec<String> = match self.types.store.get(ty) {
             Node::Record(fields) => fields.iter().map(|field| field.0.to_string()).collect(),
             Node::Alone(Head::Hit) => ["p", "world", "normal", "uv", "time"].map(String::from).to_vec(),
@@ -71,15 +70,13 @@ impl<'p> Infer<'p> {
                 });
             }
             Node::Function(..) => {
-                return error.with_help(
-                    "the function still needs its arguments; the field of its result is `(f x).field`",
-                );
+                return error.with_help("the function still needs its arguments; the field of its result is `(f x).field`");
             }
             _ => return error,
         };
         let hit = self.types.store.head(ty) == Some(Head::Hit);
         let usual = hit.then(|| hit_synonym(name)).flatten();
-        match usual.or_else(|| nearest(name, names.iter().map(String::as_str))) {
+        match usual.or_else(|| near(name, names.iter().map(String::as_str))) {
             Some(near) if origin.via.is_none() => {
                 let all = format!("it has {}", listed(&names));
                 error.with_note(all).with_suggestion(origin.detail, near, format!("did you mean `{near}`?"))
@@ -104,21 +101,15 @@ fn hit_synonym(name: &str) -> Option<&'static str> {
 
 fn vector_hint(error: Diagnostic, head: Head, name: &str, access: Access) -> Diagnostic {
     if access == Access::Whole {
-        return error.with_help(
-            "take a vector apart by a vector pattern, `(x, y, z)`, and write a new one: `(v.x, 0, v.z)`",
-        );
+        return error.with_help("take a vector apart by a vector pattern, `(x, y, z)`, and write a new one: `(v.x, 0, v.z)`");
     }
     let all = if head == Head::Vec2 { "`.x` and `.y`" } else { "`.x`, `.y` and `.z`" };
     let help = match name {
         "length" | "len" | "norm" | "magnitude" => "the length of a vector v is `length v`".to_owned(),
-        "normal" | "normalize" | "normalized" | "unit" => {
-            "a vector v made length 1 is `normalize v`".to_owned()
-        }
+        "normal" | "normalize" | "normalized" | "unit" => "a vector v made length 1 is `normalize v`".to_owned(),
         "r" | "g" | "b" => format!("a vector has {all}; the components of colours are `.r`, `.g` and `.b`"),
-        "p" => "this is a place already; only a hit has the field `p`".to_owned(),
-        _ if name.len() > 3 && name.chars().all(|c| "xyz".contains(c)) => {
-            format!("vectors have two or three components: {all}")
-        }
+        "p" => "this is a vector already; only a hit has the field `p`".to_owned(),
+        _ if name.len() > 3 && name.chars().all(|c| "xyz".contains(c)) => format!("vectors have two or three components: {all}"),
         _ if field_of(Head::Vec3, name, access).is_some() => format!("a vector of two has {all} only"),
         _ => format!("a vector has {all}, and several at once as in `.xy`"),
     };

@@ -28,6 +28,11 @@ impl<'p> Infer<'p> {
         Printer::new(&self.types.store).words(ty)
     }
 
+    /// A type in words, several of it.
+    pub(super) fn words_of_several(&self, ty: Ty) -> String {
+        Printer::new(&self.types.store).several(ty)
+    }
+
     /// The text at a place.
     pub(super) fn text(&self, span: Span) -> &'p str {
         self.sources.text(span)

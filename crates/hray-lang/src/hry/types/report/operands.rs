@@ -20,47 +20,37 @@ impl<'p> Infer<'p> {
         let word = written_operator(operator);
         for (expr, ty) in [left, right] {
             let store = &self.types.store;
-            if !store.is_error(ty) && store.heads(ty).meet(Kind::NUMERIC).is_empty() {
+            let rigid = matches!(store.get(ty), Node::Rigid { kind, .. } if !kind.within(Kind::NUMERIC));
+            if !store.is_error(ty) && (rigid || store.heads(ty).meet(Kind::NUMERIC).is_empty()) {
                 return self.not_numeric(word, span, expr, ty);
             }
         }
         let (l, r) = (self.words(left.1), self.words(right.1));
         let message = format!("`{word}` does not go with {l} and {r}");
-        let error = Diagnostic::error(
-            "wrong-operand",
-            message,
-            span,
-            "takes two of the same type, or one of them a number",
-        )
-        .with_secondary(left.0.span, format!("`{}`", self.show(left.1)))
-        .with_secondary(right.0.span, format!("`{}`", self.show(right.1)));
+        let error = Diagnostic::error("wrong-operand", message, span, "takes two of the same type, or one of them a number")
+            .with_secondary(left.0.span, format!("`{}`", self.show(left.1)))
+            .with_secondary(right.0.span, format!("`{}`", self.show(right.1)));
         let heads = [self.types.store.head(left.1), self.types.store.head(right.1)];
         match heads {
-            [Some(Head::Vec2), Some(Head::Vec3)] | [Some(Head::Vec3), Some(Head::Vec2)] => error.with_help(
-                "`v.xy` is a vector of three without its third component; `(v.x, v.y, 0)` adds one",
-            ),
-            [Some(Head::Color), Some(Head::Vec2 | Head::Vec3)]
-            | [Some(Head::Vec2 | Head::Vec3), Some(Head::Color)] => error.with_help(
-                "`rgb v.x v.y v.z` makes a colour of a vector v, `(c.r, c.g, c.b)` a vector of a colour c",
-            ),
+            [Some(Head::Vec2), Some(Head::Vec3)] | [Some(Head::Vec3), Some(Head::Vec2)] => {
+                error.with_help("`v.xy` is a vector of three without its third component; `(v.x, v.y, 0)` adds one")
+            }
+            [Some(Head::Color), Some(Head::Vec2 | Head::Vec3)] | [Some(Head::Vec2 | Head::Vec3), Some(Head::Color)] => {
+                error.with_help("`rgb v.x v.y v.z` makes a colour of a vector v, `(c.r, c.g, c.b)` a vector of a colour c")
+            }
             _ => error,
         }
     }
 
     /// Arithmetic on something that is no number, vector or colour.
-    pub(in crate::hry::types) fn not_numeric(
-        &self,
-        word: &str,
-        span: Span,
-        expr: &'p Expr,
-        ty: Ty,
-    ) -> Diagnostic {
-        let message =
-            format!("`{word}` calculates with numbers, vectors and colours, but this is {}", self.words(ty));
+    pub(in crate::hry::types) fn not_numeric(&self, word: &str, span: Span, expr: &'p Expr, ty: Ty) -> Diagnostic {
+        let message = format!("`{word}` calculates with numbers, vectors and colours, but this is {}", self.words(ty));
         let label = format!("found `{}`", self.show(ty));
-        let error =
-            Diagnostic::error("wrong-operand", message, expr.span, label).with_secondary(span, "calculates");
+        let error = Diagnostic::error("wrong-operand", message, expr.span, label).with_secondary(span, "calculates");
         match self.types.store.get(ty) {
+            Node::Rigid { name, .. } => error.with_help(format!(
+                "the annotation says `{name}`, which may be anything; `numeric` stands for numbers, vectors and colours"
+            )),
             Node::Alone(Head::Text) if word == "+" => {
                 error.with_help("texts are joined by `++`; `show x` turns a number into text")
             }
@@ -74,15 +64,15 @@ impl<'p> Infer<'p> {
                 _ => error,
             },
             Node::Alone(Head::Light) => error.with_help("several lights are a list: `[a, b]`"),
-            Node::List(_) if word == "+" => {
-                error.with_help("lists are joined by `++`; the sum of a list of numbers is `sum list`")
-            }
+            Node::List(_) if word == "+" => error.with_help("lists are joined by `++`; the sum of a list of numbers is `sum list`"),
             Node::List(_) => error.with_help("to calculate with each element: `[ x * 2 | x <- list ]`"),
             Node::Function(from, _) if self.types.store.head(*from) == Some(Head::Hit) => {
                 let name = self.quoted(expr.span).unwrap_or("f");
                 error.with_help(format!("it varies over a surface: calculate with its value at a hit, `\\h -> {name} h {word} ...`"))
             }
-            Node::Function(..) => self.hint(error, Some(expr), expr.span, ty, Ty::NUMBER, None),
+            Node::Function(..) => {
+                self.hint(error, Some(expr), expr.span, ty, Ty::NUMBER, None)
+            }
             _ => error,
         }
     }
@@ -109,10 +99,9 @@ impl<'p> Infer<'p> {
             [Some(Head::Text), Some(Head::Number)] | [Some(Head::Number), Some(Head::Text)] => {
                 error.with_help("numbers have no quotes; `show x` turns a number into text")
             }
-            [Some(Head::Vec2 | Head::Vec3), Some(Head::Number)]
-            | [Some(Head::Number), Some(Head::Vec2 | Head::Vec3)] => error.with_help(
-                "compare a component (`v.x`), or the length (`length v`), of a vector v with a number",
-            ),
+            [Some(Head::Vec2 | Head::Vec3), Some(Head::Number)] | [Some(Head::Number), Some(Head::Vec2 | Head::Vec3)] => {
+                error.with_help("compare a component (`v.x`), or the length (`length v`), of a vector v with a number")
+            }
             _ => error,
         }
     }
@@ -125,15 +114,11 @@ impl<'p> Infer<'p> {
         left: &Expr,
         ty: Ty,
     ) -> Diagnostic {
-        let message =
-            format!("`{}` cannot tell whether two of these are the same", written_operator(operator));
-        let error = Diagnostic::error(
-            "not-comparable",
-            message,
-            span,
-            "compares numbers, vectors, colours, texts, truth values, and lists and records of them",
-        );
-        let error = error.with_secondary(left.span, format!("`{}`", self.show(ty)));
+        let message = format!("`{}` cannot compare {}", written_operator(operator), self.words_of_several(ty));
+        let label = "there is no telling whether two of them are the same";
+        let error = Diagnostic::error("not-comparable", message, span, label)
+            .with_secondary(left.span, format!("`{}`", self.show(ty)))
+            .with_note("what can be compared: numbers, vectors, colours, texts, truth values, and lists and records of them");
         match self.types.store.get(ty) {
             Node::Function(..) => error.with_help("compare what the functions give: `f x == g x`"),
             Node::Alone(Head::Hit) => error.with_help("compare its fields, such as `h.p`"),
@@ -142,13 +127,7 @@ impl<'p> Infer<'p> {
     }
 
     /// `>>` beside something that is no function.
-    pub(in crate::hry::types) fn not_a_function_beside(
-        &self,
-        word: &str,
-        span: Span,
-        side: &'p Expr,
-        ty: Ty,
-    ) -> Diagnostic {
+    pub(in crate::hry::types) fn not_a_function_beside(&self, word: &str, span: Span, side: &'p Expr, ty: Ty) -> Diagnostic {
         let message = format!("`{word}` joins two functions, but this is {}", self.words(ty));
         Diagnostic::error("wrong-operand", message, side.span, format!("found `{}`", self.show(ty)))
             .with_secondary(span, "`f >> g` is the function that does first f, then g")
@@ -156,12 +135,7 @@ impl<'p> Infer<'p> {
     }
 
     /// `f >> g` where g does not take what f gives.
-    pub(in crate::hry::types) fn not_composed(
-        &self,
-        span: Span,
-        left: Side<'p>,
-        right: Side<'p>,
-    ) -> Diagnostic {
+    pub(in crate::hry::types) fn not_composed(&self, span: Span, left: Side<'p>, right: Side<'p>) -> Diagnostic {
         let message = format!(
             "the left function gives {}, but the right one takes {}",
             self.words(left.1),
@@ -175,13 +149,10 @@ impl<'p> Infer<'p> {
     /// `++` of something else than lists and texts.
     pub(in crate::hry::types) fn not_appendable(&self, span: Span, side: &'p Expr, ty: Ty) -> Diagnostic {
         let message = format!("`++` joins lists, or texts, but this is {}", self.words(ty));
-        let error =
-            Diagnostic::error("wrong-operand", message, side.span, format!("found `{}`", self.show(ty)))
-                .with_secondary(span, "joins two lists, or two texts");
+        let error = Diagnostic::error("wrong-operand", message, side.span, format!("found `{}`", self.show(ty)))
+            .with_secondary(span, "joins two lists, or two texts");
         match (self.types.store.head(ty), self.quoted(side.span)) {
-            (Some(Head::Number), _) => {
-                error.with_help("numbers are added by `+`; `show x` turns one into text")
-            }
+            (Some(Head::Number), _) => error.with_help("numbers are added by `+`; `show x` turns one into text"),
             (Some(Head::Function), _) => error,
             (_, Some(text)) => {
                 error.with_suggestion(side.span, format!("[{text}]"), "a list of one is written in brackets:")
