@@ -44,6 +44,15 @@ pub(crate) enum Command {
     Check(CheckArgs),
     /// Show what is in a scene
     Info(InfoArgs),
+    /// Answer an editor: a language server on the standard input and output
+    #[command(
+        after_help = "Editors start it; see editors/vscode/README.md for how to tell them.\nThe protocol is the Language Server Protocol 3.17."
+    )]
+    Lsp {
+        /// Ignored: there is no other way to talk
+        #[arg(long, hide = true)]
+        stdio: bool,
+    },
     /// Print a script that lets a shell complete the commands and options
     #[command(
         after_help = "For example, for bash:\n  hray completions bash > ~/.local/share/bash-completion/completions/hray"

@@ -17,6 +17,7 @@ mod info;
 mod interrupt;
 mod job;
 mod lint_args;
+mod lsp;
 mod progress;
 mod render;
 mod summary;
@@ -43,6 +44,7 @@ fn run(console: &Console) -> Result<(), Failure> {
         Some(Command::Render(arguments)) => render::run(arguments, console),
         Some(Command::Check(arguments)) => check::run(arguments, console),
         Some(Command::Info(arguments)) => info::run(arguments, console),
+        Some(Command::Lsp { .. }) => lsp::run(),
         Some(Command::Completions { shell }) => generate::completions(*shell, console),
         Some(Command::Man { command }) => generate::man(command.as_deref(), console),
     }
