@@ -4,6 +4,7 @@ pub mod assets;
 pub mod ast;
 mod convert;
 pub mod eval;
+pub mod format;
 pub mod ide;
 pub mod library;
 pub mod program;
