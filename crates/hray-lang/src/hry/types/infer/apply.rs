@@ -1,0 +1,212 @@
+//! Functions and their arguments.
+
+use super::{Expected, Infer, Why};
+use crate::hry::ast::{Expr, ExprKind};
+use crate::hry::library::Constructor;
+use crate::hry::program::{Global, application};
+use crate::hry::types::kind::Head;
+use crate::hry::types::names::Meaning;
+use crate::hry::types::store::{Node, Ty};
+
+/// A call whose arguments are being looked at.
+struct Call<'a, 'p> {
+    callee: &'p Expr,
+    arguments: &'a [&'p Expr],
+    /// The type of the function before any argument.
+    whole: Ty,
+    /// An argument that was refused.
+    refused: Option<Refused>,
+}
+
+#[derive(Clone, Copy)]
+struct Refused {
+    found: Ty,
+    wanted: Ty,
+    /// The place of the complaint.
+    complaint: usize,
+}
+
+impl<'p> Infer<'p> {
+    /// `f a b`
+    pub(super) fn application(&mut self, expr: &'p Expr, expected: Expected<'p>) -> Ty {
+        let (callee, arguments) = application(expr);
+        self.call(expr, callee, &arguments, expected)
+    }
+
+    pub(super) fn call(
+        &mut self,
+        expr: &'p Expr,
+        callee: &'p Expr,
+        arguments: &[&'p Expr],
+        expected: Expected<'p>,
+    ) -> Ty {
+        let found = match self.constructor_of(callee) {
+            Some(constructor) => self.constructor_call(expr, constructor, callee, arguments),
+            None => self.function_call(callee, arguments),
+        };
+        self.settle(expr, found, expected)
+    }
+
+    /// The constructor that a name means.
+    pub(super) fn constructor_of(&self, callee: &Expr) -> Option<&'static Constructor> {
+        match (&callee.kind, self.names.uses.get(&callee.span.start)) {
+            (ExprKind::Name(_), Some(Meaning::Global(Global::Constructor(constructor)))) => Some(constructor),
+            _ => None,
+        }
+    }
+
+    fn function_call(&mut self, callee: &'p Expr, arguments: &[&'p Expr]) -> Ty {
+        let whole = self.expr(callee, None);
+        let mut call = Call { callee, arguments, whole, refused: None };
+        let mut ty = whole;
+        for (index, argument) in arguments.iter().enumerate() {
+            let Some((from, to)) = self.taken(ty) else {
+                if !self.types.store.is_error(ty) && call.refused.is_none() {
+                    let error = self.not_a_function(callee, whole, arguments, index);
+                    self.report(error);
+                }
+                return self.given_up(arguments, index);
+            };
+            match self.argument(&mut call, index, argument, from) {
+                Some(()) => ty = to,
+                None => return self.given_up(arguments, index + 1),
+            }
+        }
+        ty
+    }
+
+    /// Looks at the arguments that are left, for the sake of what may be wrong inside them.
+    fn given_up(&mut self, arguments: &[&'p Expr], from: usize) -> Ty {
+        for rest in arguments.iter().skip(from) {
+            self.expr(rest, None);
+        }
+        Ty::ERROR
+    }
+
+    /// One argument of a call. None where nothing more can be said about the call.
+    fn argument(
+        &mut self,
+        call: &mut Call<'_, 'p>,
+        index: usize,
+        argument: &'p Expr,
+        from: Ty,
+    ) -> Option<()> {
+        let why = Why::Argument { callee: call.callee, index, whole: call.whole };
+        if let Some(refused) = call.refused {
+            // What comes after an argument that was refused is probably off, too.
+            let found = self.expr(argument, None);
+            let fits = |one: Ty, place: Ty| {
+                self.types.store.head(one).is_some_and(|head| self.types.store.heads(place).has(head))
+            };
+            if fits(found, refused.wanted) && fits(refused.found, from) && !fits(found, from) {
+                self.suggest_order(refused.complaint, call.callee, call.arguments);
+            }
+            return Some(());
+        }
+        if let ExprKind::Vector(parts) = &argument.kind {
+            if index == 0 && call.arguments.len() == 1 {
+                return self.vector_argument(call, argument, parts, from, why);
+            }
+        }
+        let before = self.diagnostics.len();
+        self.expr(argument, Some((from, why)));
+        let new = self.diagnostics.iter().enumerate().skip(before);
+        let mut complaints =
+            new.filter(|(_, error)| error.code == "wrong-argument" && error.primary.span == argument.span);
+        let Some((complaint, _)) = complaints.next() else { return Some(()) };
+        if self.is_call_without_parentheses(call, index) {
+            self.suggest_parentheses(complaint, call.arguments, index);
+            return None;
+        }
+        let found = self.refused_type(argument, from);
+        call.refused = Some(Refused { found, wanted: from, complaint });
+        Some(())
+    }
+
+    /// The type that an argument has, which was refused.
+    fn refused_type(&self, argument: &Expr, wanted: Ty) -> Ty {
+        let found = self.refused.filter(|(span, _)| *span == argument.span);
+        found.map_or(wanted, |(_, ty)| ty)
+    }
+
+    /// The only argument of a call, written as a vector. `f (a, b)` probably meant `f a b` where `f` takes no vector, or
+    /// `a` is no number.
+    fn vector_argument(
+        &mut self,
+        call: &Call<'_, 'p>,
+        argument: &'p Expr,
+        parts: &'p [Expr],
+        from: Ty,
+        why: Why<'p>,
+    ) -> Option<()> {
+        let vector = if parts.len() == 2 { Ty::VEC2 } else { Ty::VEC3 };
+        let heads = self.types.store.heads(from);
+        let takes_vector = self.types.store.head(vector).is_some_and(|head| heads.has(head));
+        let takes_several = self.types.store.parameters(call.whole).0.len() >= parts.len();
+        let mut is_vector = true;
+        for part in parts {
+            if takes_several {
+                let ty = self.expr(part, None);
+                is_vector &= self.types.store.heads(ty).has(Head::Number);
+                if is_vector && takes_vector {
+                    self.settle(part, ty, Some((Ty::NUMBER, Why::Component)));
+                }
+            } else {
+                self.expr(part, Some((Ty::NUMBER, Why::Component)));
+            }
+        }
+        if takes_several && !(takes_vector && is_vector) {
+            let error = self.call_with_commas(call.callee, call.whole, argument);
+            self.report(error);
+            return None;
+        }
+        self.note(argument.span, vector);
+        self.settle(argument, vector, Some((from, why)));
+        Some(())
+    }
+
+    /// Whether `f g x` probably meant `f (g x)`: `g` is a function where none is taken, and `x` would be one too many.
+    fn is_call_without_parentheses(&self, call: &Call<'_, 'p>, index: usize) -> bool {
+        let Some(argument) = call.arguments.get(index) else { return false };
+        let piped = call.arguments.iter().any(|argument| argument.span.end <= call.callee.span.start);
+        let found = self.notes.iter().rev().find(|(span, _)| *span == argument.span);
+        let is_function = matches!(argument.kind, ExprKind::Name(_))
+            && found.is_some()
+            && self.names.uses.get(&argument.span.start).is_some_and(|meaning| self.is_function(*meaning));
+        is_function && !piped && self.types.store.parameters(call.whole).0.len() < call.arguments.len()
+    }
+
+    fn is_function(&self, meaning: Meaning) -> bool {
+        use crate::hry::types::scheme::Binding;
+        let binding = match meaning {
+            Meaning::Local(local) => self.locals.get(local).cloned().flatten(),
+            Meaning::Global(Global::Definition { module, index }) => {
+                self.types.definitions.get(module).and_then(|m| m.get(index)).cloned()
+            }
+            Meaning::Global(Global::Native(native)) => {
+                self.types.natives.get(native.native as usize).cloned().map(Binding::Poly)
+            }
+            Meaning::Global(Global::Constructor(_)) => return true,
+            Meaning::Nothing => None,
+        };
+        let ty = match binding {
+            Some(Binding::Mono(ty)) => ty,
+            Some(Binding::Poly(scheme)) => scheme.ty,
+            None => return false,
+        };
+        self.types.store.head(ty) == Some(Head::Function)
+    }
+
+    /// What a function takes and gives. What is not known yet becomes a function.
+    fn taken(&mut self, ty: Ty) -> Option<(Ty, Ty)> {
+        if let Node::Function(from, to) = self.types.store.get(ty) {
+            return Some((*from, *to));
+        }
+        if !self.types.store.is_variable(ty) {
+            return None;
+        }
+        let (from, to) = (self.fresh(), self.fresh());
+        let function = self.types.store.function(from, to);
+        self.unify(ty, function).ok().map(|()| (from, to))
+    }
+}

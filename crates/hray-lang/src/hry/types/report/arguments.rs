@@ -1,0 +1,200 @@
+//! Calls that are not calls: too many arguments, none of a function, or written as in another language.
+
+use super::super::infer::{Infer, counted};
+use super::super::kind::Head;
+use super::super::store::{Node, Ty};
+use crate::diagnostic::{Diagnostic, Span, Suggestion};
+use crate::hry::ast::{Expr, ExprKind, UnaryOperator};
+
+impl<'p> Infer<'p> {
+    /// Something is given an argument that takes none, or no more. `index` counts the arguments that went well.
+    pub(in crate::hry::types) fn not_a_function(
+        &self,
+        callee: &'p Expr,
+        whole: Ty,
+        arguments: &[&'p Expr],
+        index: usize,
+    ) -> Diagnostic {
+        let Some(argument) = arguments.get(index) else {
+            return Diagnostic::error("not-a-function", "this is not a function", callee.span, "");
+        };
+        if let Some(error) = self.negative_argument(callee, whole, argument, index) {
+            return error;
+        }
+        if index > 0 {
+            return self.too_many(callee, whole, argument, index, arguments.len());
+        }
+        let is = self.words(whole);
+        // What is piped in stands before the function.
+        if argument.span.end <= callee.span.start {
+            let message = format!("`|>` gives a value to a function, but this is {is}");
+            let error = Diagnostic::error(
+                "not-a-function",
+                message,
+                callee.span,
+                format!("found `{}`", self.show(whole)),
+            );
+            return error.with_secondary(argument.span, "the value");
+        }
+        let message = format!("this is {is}, not a function, so it takes no argument");
+        let error = Diagnostic::error(
+            "not-a-function",
+            message,
+            callee.span,
+            format!("found `{}`", self.show(whole)),
+        )
+        .with_secondary(argument.span, "taken for its argument");
+        match (&callee.kind, &argument.kind) {
+            (ExprKind::Number(_), ExprKind::Name(_) | ExprKind::Number(_)) => {
+                let between = Span::new(callee.span.end, argument.span.start);
+                error.with_suggestion(between, " * ", "to multiply, write `*`:")
+            }
+            (ExprKind::Vector(_) | ExprKind::Color(_) | ExprKind::List(_), _) => {
+                error.with_help("is a comma missing before the argument?")
+            }
+            _ if self.types.store.head(whole) == Some(Head::List) => {
+                error.with_help("element i of a list, counted from 0, is `at i list`")
+            }
+            (_, ExprKind::Record(_)) => error.with_help("is a comma missing, or `=`?"),
+            _ => error.with_help("is an operator or a comma missing between the two?"),
+        }
+    }
+
+    /// `a -1`, which gives -1 to `a`.
+    fn negative_argument(
+        &self,
+        callee: &Expr,
+        whole: Ty,
+        argument: &Expr,
+        index: usize,
+    ) -> Option<Diagnostic> {
+        let ExprKind::Unary { operator: UnaryOperator::Negate, operand } = &argument.kind else {
+            return None;
+        };
+        let text = self.text(argument.span);
+        if !text.starts_with('-') || index > 0 && !matches!(callee.kind, ExprKind::Name(_)) {
+            return None;
+        }
+        let name = self.quoted(callee.span).unwrap_or("it");
+        let operand = self.quoted(operand.span).unwrap_or("1");
+        let (_, result) = self.types.store.parameters(whole);
+        let message = if index == 0 {
+            format!(
+                "`{name} -{operand}` gives -{operand} to `{name}` as an argument, but `{name}` is {}",
+                self.words(whole)
+            )
+        } else {
+            format!(
+                "`-{operand}` is taken for one more argument of `{name}`, whose result is {}",
+                self.words(result)
+            )
+        };
+        let sign = Span::new(argument.span.start, argument.span.start + 1);
+        let error = Diagnostic::error(
+            "negative-argument",
+            message,
+            argument.span,
+            "a minus with space only before it begins an argument",
+        );
+        Some(error.with_suggestion(sign, "- ", "to subtract, put a space after the minus, too:"))
+    }
+
+    fn too_many(
+        &self,
+        callee: &'p Expr,
+        whole: Ty,
+        argument: &Expr,
+        index: usize,
+        count: usize,
+    ) -> Diagnostic {
+        let name = self.quoted(callee.span).unwrap_or("this function");
+        let takes = counted(index, "argument");
+        let message = format!("`{name}` takes {takes}, but is given {count}");
+        let (_, result) = self.types.store.parameters(whole);
+        let error = Diagnostic::error("too-many-arguments", message, argument.span, "one too many")
+            .with_secondary(callee.span, format!("its type: `{}`", self.show(whole)));
+        match (&argument.kind, self.types.store.get(result)) {
+            (ExprKind::Name(_), _) if index > 0 => {
+                error.with_help("an argument that is itself a call needs parentheses: `f (g x)`")
+            }
+            (ExprKind::Record(_), Node::Alone(_)) => error.with_help("is a comma missing before the record?"),
+            _ => error.with_help("is an operator or a comma missing before it?"),
+        }
+    }
+
+    /// Adds to a complaint that the arguments fit in another order.
+    pub(in crate::hry::types) fn suggest_order(
+        &mut self,
+        complaint: usize,
+        callee: &Expr,
+        arguments: &[&'p Expr],
+    ) {
+        let piped = arguments.iter().any(|argument| argument.span.end <= callee.span.start);
+        let words: Option<Vec<&str>> = arguments.iter().map(|argument| self.quoted(argument.span)).collect();
+        let swapped = match (arguments, words.as_deref()) {
+            ([first, second], Some([a, b])) if !piped => {
+                Some((first.span.to(second.span), format!("{b} {a}")))
+            }
+            _ => None,
+        };
+        let Some(error) = self.diagnostics.get_mut(complaint) else { return };
+        error.help = None;
+        match swapped {
+            Some((span, replacement)) => {
+                let text = "the arguments fit in the other order:".to_owned();
+                error.suggestion = Some(Suggestion { span, replacement, text });
+            }
+            None => error.help = Some("are the arguments in the wrong order?".into()),
+        }
+    }
+
+    /// Adds to a complaint about `g` in `f g x` that `f (g x)` was probably meant.
+    pub(in crate::hry::types) fn suggest_parentheses(
+        &mut self,
+        complaint: usize,
+        arguments: &[&'p Expr],
+        index: usize,
+    ) {
+        let rest = arguments.get(index..).unwrap_or_default();
+        let (Some(first), Some(last)) = (rest.first(), rest.last()) else { return };
+        let span = first.span.to(last.span);
+        let Some(text) = self.quoted(span) else { return };
+        let replacement = format!("({text})");
+        if let Some(error) = self.diagnostics.get_mut(complaint) {
+            error.help = None;
+            let text = "an argument that is itself a call needs parentheses:".to_owned();
+            error.suggestion = Some(Suggestion { span, replacement, text });
+        }
+    }
+
+    /// `mix (a, b)` where `mix a b` was meant.
+    pub(in crate::hry::types) fn call_with_commas(
+        &self,
+        callee: &'p Expr,
+        whole: Ty,
+        argument: &'p Expr,
+    ) -> Diagnostic {
+        let name = self.quoted(callee.span).unwrap_or("this function");
+        let ExprKind::Vector(parts) = &argument.kind else {
+            return Diagnostic::error("call-with-commas", "arguments have no commas", argument.span, "");
+        };
+        let message = format!(
+            "`{name}` is given one vector here: commas in parentheses make a vector of {}",
+            parts.len()
+        );
+        let error =
+            Diagnostic::error("call-with-commas", message, argument.span, "a vector, not several arguments")
+                .with_secondary(callee.span, format!("its type: `{}`", self.show(whole)));
+        match self.parts_as_arguments(argument) {
+            Some(words) => {
+                let words = if callee.span.end == argument.span.start { format!(" {words}") } else { words };
+                error.with_suggestion(
+                    argument.span,
+                    words,
+                    "arguments are written one after another, without commas:",
+                )
+            }
+            None => error.with_help("arguments are written one after another, without commas: `f x y`"),
+        }
+    }
+}

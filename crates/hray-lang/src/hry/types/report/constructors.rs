@@ -1,0 +1,307 @@
+//! Constructors that are not given what they take.
+
+use super::super::infer::{Allowed, Infer, field_of};
+use super::super::kind::{Head, Kind};
+use super::super::scheme::Access;
+use super::super::store::{Node, Ty};
+use super::super::unknown::{field_synonym, near};
+use super::hints::field_for;
+use super::mismatch::field_words;
+use crate::diagnostic::{Diagnostic, Span};
+use crate::hry::ast::Expr;
+use crate::hry::library::{CONSTRUCTORS, Constructor, FieldSpec, FieldType};
+use crate::hry::program::listed;
+use crate::hry::sources::STANDARD_BASE;
+
+impl<'p> Infer<'p> {
+    /// Reports a field that a constructor does not have.
+    pub(in crate::hry::types) fn unknown_constructor_field(
+        &mut self,
+        constructor: &'static Constructor,
+        name: &str,
+        span: Span,
+        via: Option<Span>,
+        is_name: bool,
+    ) {
+        let owner = constructor.name;
+        let article = if owner == "scene" { "a scene" } else { "" };
+        let whose = if article.is_empty() { format!("`{owner}`") } else { article.to_owned() };
+        let label = if is_name { "no such field" } else { "the record given here has one" };
+        let mut error =
+            Diagnostic::error("unknown-field", format!("{whose} has no field `{name}`"), span, label);
+        if let Some(via) = via.filter(|via| via.start < STANDARD_BASE) {
+            error = error.with_secondary(via, format!("the record goes to `{owner}` here"));
+        }
+        let names: Vec<&str> = constructor.fields.iter().map(|field| field.name).collect();
+        let all = format!("{whose} has {}", listed(&names));
+        let near = meant_field(constructor, name);
+        let error = match near {
+            Some("material") if matches!(name, "color" | "colour" | "texture" | "pigment" | "reflection" | "shine") => error
+                .with_help(format!("colours and the like belong to the material: `{owner} {{ material = classic {{ color = ... }} }}`"))
+                .with_note(all),
+            Some(near) if is_name => {
+                error.with_note(all).with_suggestion(span, near, format!("did you mean `{near}`?"))
+            }
+            Some(near) => error.with_note(all).with_help(format!("did you mean `{near}`?")),
+            None => match elsewhere(constructor, name) {
+                Some(other) => error.with_note(all).with_help(format!("`{name}` is a field of `{other}`")),
+                None => error.with_help(all),
+            },
+        };
+        self.report(error);
+    }
+
+    /// Reports fields that have no default and are not there.
+    pub(in crate::hry::types) fn missing_fields(
+        &mut self,
+        constructor: &'static Constructor,
+        given: &[&str],
+        span: Span,
+        via: Option<Span>,
+    ) {
+        // A misspelt field was reported, so it is not missing as well.
+        let unknown = given.iter().filter(|name| constructor.field(name).is_none());
+        let meant: Vec<&str> = unknown.filter_map(|name| meant_field(constructor, name)).collect();
+        let is_missing = |field: &&FieldSpec| {
+            field.default.is_none() && !given.contains(&field.name) && !meant.contains(&field.name)
+        };
+        let missing: Vec<&FieldSpec> = constructor.fields.iter().filter(is_missing).collect();
+        let Some(first) = missing.first() else { return };
+        let owner = constructor.name;
+        let names: Vec<&str> = missing.iter().map(|field| field.name).collect();
+        let message = match names.as_slice() {
+            [one] => format!("`{owner}` needs the field `{one}`, which is not given"),
+            several => format!("`{owner}` needs the fields {}, which are not given", listed(several)),
+        };
+        let mut error =
+            Diagnostic::error("missing-field", message, span, format!("without `{}`", first.name));
+        if let Some(via) = via.filter(|via| via.start < STANDARD_BASE) {
+            error = error.with_secondary(via, format!("the record goes to `{owner}` here"));
+        }
+        for field in &missing {
+            error = error.with_note(format!("`{}` : {}. {}", field.name, Allowed::written(field), field.doc));
+        }
+        self.report(error.with_help(format!("for example: {}", constructor.example)));
+    }
+
+    /// `sphere 0.5`
+    pub(in crate::hry::types) fn without_braces(
+        &self,
+        expr: &'p Expr,
+        constructor: &'static Constructor,
+        callee: &'p Expr,
+        arguments: &[&'p Expr],
+        ty: Ty,
+    ) -> Diagnostic {
+        let name = constructor.name;
+        let message = format!("`{name}` takes a record with named fields, but this is {}", self.words(ty));
+        let span = arguments.first().map_or(expr.span, |argument| argument.span);
+        let error = Diagnostic::error(
+            "constructor-without-braces",
+            message,
+            span,
+            format!("found `{}`", self.show(ty)),
+        )
+        .with_secondary(callee.span, "its fields are given by name, in braces");
+        let piped = span.end <= callee.span.start;
+        if let (Some(fields), false) = (self.guessed_fields(constructor, arguments), piped) {
+            let last = arguments.last().map_or(span, |argument| argument.span);
+            let text = "name what you give:";
+            return error.with_suggestion(span.to(last), format!("{{ {fields} }}"), text);
+        }
+        error.with_help(format!("for example: {}", constructor.example))
+    }
+
+    /// `radius = 0.5, center = (0, 1, 0)` for values whose types tell their fields.
+    fn guessed_fields(&self, constructor: &'static Constructor, arguments: &[&'p Expr]) -> Option<String> {
+        let mut used: Vec<&str> = Vec::new();
+        let mut fields = Vec::new();
+        for argument in arguments {
+            let ty = self.notes.iter().rev().find(|(span, _)| *span == argument.span)?.1;
+            let head = self.types.store.head(ty)?;
+            let field = field_for(constructor, head, &used)?;
+            used.push(field);
+            fields.push(format!("{field} = {}", self.quoted(argument.span)?));
+        }
+        Some(fields.join(", "))
+    }
+
+    /// `sphere { ... } x`
+    pub(in crate::hry::types) fn surplus_for_constructor(
+        &self,
+        constructor: &'static Constructor,
+        callee: &Expr,
+        arguments: &[&'p Expr],
+        made: Ty,
+    ) -> Diagnostic {
+        let span = arguments.get(1).map_or(callee.span, |argument| argument.span);
+        let message = format!("`{}` takes one record, and then is {}", constructor.name, self.words(made));
+        let error = Diagnostic::error("too-many-arguments", message, span, "one too many")
+            .with_secondary(callee.span, "takes one record");
+        error.with_help("is a comma missing before it, or a `|>`?")
+    }
+
+    /// A value that a field of a constructor does not take.
+    #[allow(clippy::too_many_arguments, reason = "each is a part of the sentence")]
+    pub(in crate::hry::types) fn wrong_slot(
+        &self,
+        expr: Option<&'p Expr>,
+        span: Span,
+        ty: Ty,
+        constructor: &'static Constructor,
+        field: &'static FieldSpec,
+        name: Option<Span>,
+        via: Option<Span>,
+    ) -> Diagnostic {
+        let message = format!(
+            "`{}` of `{}` takes {}, but this is {}",
+            field.name,
+            constructor.name,
+            field_words(field),
+            self.words(ty)
+        );
+        let written = Allowed::written(field);
+        let label = format!("expected `{written}`, found `{}`", self.show(ty));
+        let mut error = Diagnostic::error("wrong-field", message, span, label);
+        if let Some(name) = name {
+            error = error.with_secondary(name, format!("takes `{written}`"));
+        }
+        if let Some(via) = via.filter(|via| via.start < STANDARD_BASE) {
+            error = error.with_secondary(via, format!("it goes to `{}` here", constructor.name));
+        }
+        self.slot_hint(error, expr, span, ty, field)
+    }
+
+    fn slot_hint(
+        &self,
+        error: Diagnostic,
+        expr: Option<&'p Expr>,
+        span: Span,
+        ty: Ty,
+        field: &'static FieldSpec,
+    ) -> Diagnostic {
+        let allowed = Allowed::of(field);
+        let plain =
+            allowed.heads.heads().find(|head| *head != Head::Number).or_else(|| allowed.heads.heads().next());
+        if let Node::Function(given, _) = self.types.store.get(ty) {
+            let store = &self.types.store;
+            let Some(taken) = allowed.from else {
+                let takes_hit = store.head(*given) == Some(Head::Hit);
+                if takes_hit && matches!(field.kind, FieldType::Number | FieldType::Color | FieldType::Vec3) {
+                    let help =
+                        "this field has one value for the whole surface; it cannot vary from hit to hit";
+                    return error.with_help(help);
+                }
+                return plain
+                    .map_or(error.clone(), |head| self.hint(error, expr, span, ty, Ty::alone(head), None));
+            };
+            if !store.heads(*given).has(store.head(taken).unwrap_or(Head::Hit)) {
+                return match self.other_or_missing(expr, ty, taken) {
+                    Some(help) => error.with_help(help),
+                    None => self.function_hint(error, span, ty, taken),
+                };
+            }
+            let (_, result) = self.types.store.parameters(ty);
+            let plain = plain.map_or("something else", Head::words);
+            let gives = format!("the function gives {}, but has to give {plain}", self.words(result));
+            return error.with_help(gives);
+        }
+        if field.kind == FieldType::Height {
+            return error.with_help("bumps are a function: `bump = \\h -> 0.02 * sin (h.p.x * 40)`");
+        }
+        plain.map_or(error.clone(), |head| self.hint(error, expr, span, ty, Ty::alone(head), None))
+    }
+
+    /// For a function of several parameters: which are to be given first.
+    fn other_or_missing(&self, expr: Option<&'p Expr>, ty: Ty, taken: Ty) -> Option<String> {
+        let store = &self.types.store;
+        let (parameters, _) = store.parameters(ty);
+        let before = parameters.iter().position(|parameter| store.head(*parameter) == store.head(taken))?;
+        if before == 0 {
+            return None;
+        }
+        let (callee, arguments) = crate::hry::program::application(expr?);
+        let name = self.quoted(callee.span)?;
+        let names: Vec<String> = (arguments.len()..arguments.len() + before)
+            .filter_map(|index| self.parameter_name(callee, index).map(|name| format!("`{name}`")))
+            .collect();
+        let which = if names.len() == before { format!(" ({})", names.join(", ")) } else { String::new() };
+        let more = if arguments.is_empty() { "" } else { "still " };
+        let count = super::super::infer::counted(before, "argument");
+        Some(format!(
+            "`{name}` {more}needs {count}{which} before the {}",
+            if taken == Ty::HIT { "hit" } else { "direction" }
+        ))
+    }
+
+    fn function_hint(&self, error: Diagnostic, span: Span, ty: Ty, taken: Ty) -> Diagnostic {
+        let first = self.types.store.parameters(ty).0.first().copied();
+        let demanded = first.map(|first| self.demanded_fields(first)).unwrap_or_default();
+        let foreign = demanded.iter().find(|name| field_of(Head::Hit, name, Access::Read).is_none());
+        let only_records = first.is_some_and(|first| {
+            !self.types.store.heads(first).has(Head::Vec2) && !self.types.store.heads(first).has(Head::Vec3)
+        });
+        if let (Some(foreign), Ty::HIT, true) = (foreign, taken, only_records) {
+            let help = format!(
+                "the function reads the field `{foreign}`, but a hit has `p`, `world`, `normal`, `uv` and `time`"
+            );
+            return error.with_help(help);
+        }
+        let heads = self.types.store.parameters(ty).0.first().map(|first| self.types.store.heads(*first));
+        let likely =
+            [Head::Vec3, Head::Vec2].into_iter().find(|head| heads.is_some_and(|heads| heads.has(*head)));
+        match (likely.or_else(|| heads.and_then(Kind::only)), taken) {
+            (Some(Head::Vec3), Ty::HIT) => self.place_of_hit(error, span, "h.p", "the function takes a place; to give it the place of the hit:"),
+            (Some(Head::Vec2), Ty::HIT) => {
+                self.place_of_hit(error, span, "h.uv", "the function takes a vector of two; to give it the surface coordinates of the hit:")
+            }
+            (Some(Head::Hit), _) => error.with_help("what lies behind everything has no hit: the function gets the direction one looks in, a vector"),
+            (Some(first), Ty::HIT) => error.with_help(format!("a function for this field takes a hit, and not {}", first.words())),
+            _ => error,
+        }
+    }
+
+    fn place_of_hit(&self, error: Diagnostic, span: Span, place: &str, text: &str) -> Diagnostic {
+        match self.quoted(span) {
+            Some(quoted) => {
+                let plain = quoted.chars().all(|c| c.is_alphanumeric() || "_' .#".contains(c));
+                let function = if plain { quoted.to_owned() } else { format!("({quoted})") };
+                error.with_suggestion(span, format!("\\h -> {function} {place}"), text)
+            }
+            None => error.with_help(format!("{text} `\\h -> f {place}`")),
+        }
+    }
+
+    /// A `scene` that is no scene.
+    pub(in crate::hry::types) fn wrong_scene(&self, body: &'p Expr, ty: Ty) -> Diagnostic {
+        let message = format!(
+            "`scene` is a record, or a function from the time in seconds to one, but this is {}",
+            self.words(ty)
+        );
+        let error =
+            Diagnostic::error("wrong-scene", message, body.span, format!("found `{}`", self.show(ty)));
+        match (self.types.store.get(ty), self.quoted(body.span)) {
+            (Node::Alone(Head::Shape), Some(text)) => {
+                error.with_suggestion(body.span, format!("{{ objects = [{text}] }}"), "shapes are the objects of a scene:")
+            }
+            (Node::List(of), Some(text)) if self.types.store.head(*of) == Some(Head::Shape) => {
+                error.with_suggestion(body.span, format!("{{ objects = {text} }}"), "shapes are the objects of a scene:")
+            }
+            _ => error.with_help("for example: scene = { objects = [ sphere {} ], lights = [ point { position = (3, 4, 5) } ] }"),
+        }
+    }
+}
+
+/// The field that was probably meant.
+fn meant_field(constructor: &'static Constructor, name: &str) -> Option<&'static str> {
+    near(name, constructor.fields.iter().map(|field| field.name)).or_else(|| field_synonym(constructor, name))
+}
+
+/// Another constructor, of the same kind of thing, that has such a field.
+fn elsewhere(constructor: &Constructor, name: &str) -> Option<&'static str> {
+    let others =
+        CONSTRUCTORS.iter().filter(|other| other.name != constructor.name && other.field(name).is_some());
+    let mut others: Vec<&Constructor> = others.collect();
+    others.sort_by_key(|other| other.makes != constructor.makes);
+    others.first().map(|other| other.name)
+}

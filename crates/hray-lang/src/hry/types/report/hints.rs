@@ -1,0 +1,494 @@
+//! What to do about a type that is not the expected one.
+
+use super::super::infer::{Infer, Why, counted};
+use super::super::kind::{Head, Kind};
+use super::super::store::{Node, Ty};
+use crate::diagnostic::{Diagnostic, Span};
+use crate::hry::ast::{Expr, ExprKind};
+use crate::hry::library::{CONSTRUCTORS, Constructor, FieldType};
+use crate::hry::program::{Global, application};
+use crate::hry::types::names::Meaning;
+use crate::hry::types::scheme::Binding;
+
+impl<'p> Infer<'p> {
+    /// Adds what to do, where that can be told from the types.
+    pub(super) fn hint(
+        &self,
+        error: Diagnostic,
+        expr: Option<&'p Expr>,
+        span: Span,
+        found: Ty,
+        expected: Ty,
+        why: Option<Why<'p>>,
+    ) -> Diagnostic {
+        let store = &self.types.store;
+        let expected_head = store.head(expected);
+        if let (Some(expr), Node::Function(from, to)) = (expr, store.get(found)) {
+            if expected_head != Some(Head::Function) {
+                return self.missing_arguments(error, expr, found, (*from, *to), expected, why);
+            }
+        }
+        if let (Node::Function(given, _), Node::Function(taken, _)) = (store.get(found), store.get(expected))
+        {
+            return self.other_parameter(error, span, (*given, *taken), found, expected);
+        }
+        if let (Node::List(of), Some(found)) = (store.get(expected), store.head(found)) {
+            if store.head(*of) == Some(found) {
+                return self.suggest(
+                    error,
+                    span,
+                    |text| format!("[{text}]"),
+                    "a list of one is written in brackets:",
+                );
+            }
+        }
+        if let (Node::List(of), Some(expected)) = (store.get(found), expected_head) {
+            if store.head(*of) == Some(expected) {
+                return self.list_for_one(error, expected, why);
+            }
+        }
+        if let (Some(why), Node::Rigid { .. }) = (why, store.get(expected)) {
+            return self.rigid_hint(error, found, expected, why);
+        }
+        if let Node::Rigid { name, .. } = store.get(found) {
+            let help = format!(
+                "the annotation promises to take any type `{name}`; say there which type it really is"
+            );
+            return error.with_help(help);
+        }
+        if let (Some(Head::Number), Some(kind)) = (store.head(found), store.kind(expected)) {
+            if kind == Kind::PLACEABLE {
+                return error.with_help("what is moved, turned or scaled comes last: `shape |> scale 2`");
+            }
+        }
+        match (store.head(found), expected_head) {
+            (Some(found), Some(expected)) => self.hint_of_heads(error, expr, span, found, expected, why),
+            _ => error,
+        }
+    }
+
+    fn suggest(
+        &self,
+        error: Diagnostic,
+        span: Span,
+        with: impl Fn(&str) -> String,
+        text: &str,
+    ) -> Diagnostic {
+        match self.quoted(span) {
+            Some(quoted) => {
+                let replacement = with(quoted);
+                error.with_suggestion(span, replacement, text)
+            }
+            None => error.with_help(text),
+        }
+    }
+
+    /// Something is given where an annotation says that it may be anything.
+    fn rigid_hint(&self, error: Diagnostic, found: Ty, expected: Ty, why: Why<'p>) -> Diagnostic {
+        let name = self.show(expected);
+        if let Why::Argument { callee, .. } = why {
+            if self.is_recursive(callee) {
+                let function = self.quoted(callee.span).unwrap_or("it");
+                return error.with_help(format!(
+                    "inside its own definition `{function}` has one type, and cannot be used for another than `{name}`"
+                ));
+            }
+        }
+        let found = self.show(found);
+        error.with_help(format!(
+            "the annotation promises that this works whatever type `{name}` is; if it is always `{found}`, say so there"
+        ))
+    }
+
+    /// Whether a name means a definition that is not known for every use yet: one that uses itself.
+    fn is_recursive(&self, callee: &Expr) -> bool {
+        let binding = match self.names.uses.get(&callee.span.start) {
+            Some(Meaning::Global(Global::Definition { module, index })) => {
+                self.types.definitions.get(*module).and_then(|m| m.get(*index))
+            }
+            Some(Meaning::Local(local))
+                if self.names.locals.get(*local).is_some_and(|local| local.is_let) =>
+            {
+                self.locals.get(*local).and_then(Option::as_ref)
+            }
+            _ => None,
+        };
+        matches!(binding, Some(Binding::Mono(_)))
+    }
+
+    fn grey(
+        &self,
+        error: Diagnostic,
+        expr: Option<&'p Expr>,
+        span: Span,
+        why: Option<Why<'p>>,
+    ) -> Diagnostic {
+        let is_plain = expr.is_some_and(|expr| matches!(expr.kind, ExprKind::Number(_) | ExprKind::Name(_)));
+        if is_plain {
+            let text = "a grey of that strength, from red, green and blue:";
+            return self.suggest(error, span, |n| in_place(format!("rgb {n} {n} {n}"), why), text);
+        }
+        error.with_help("a grey of strength n is `rgb n n n`, or `white * n`")
+    }
+
+    fn shown(
+        &self,
+        error: Diagnostic,
+        expr: Option<&'p Expr>,
+        span: Span,
+        why: Option<Why<'p>>,
+    ) -> Diagnostic {
+        let with = |text: &str| expr.map_or_else(|| format!("({text})"), |expr| self.as_argument(expr, text));
+        self.suggest(
+            error,
+            span,
+            |n| in_place(format!("show {}", with(n)), why),
+            "`show` turns a number into text:",
+        )
+    }
+
+    fn list_for_one(&self, error: Diagnostic, expected: Head, why: Option<Why<'p>>) -> Diagnostic {
+        let help = match (expected, why) {
+            (Head::Shape, Some(Why::Field { .. } | Why::Item { .. })) => {
+                "a list inside a list: join them with `++`, as in `[a, b] ++ list`, or make the list one shape: `group list`"
+            }
+            (Head::Shape, _) => {
+                "`group list` makes one shape of a list of them; to change each, write `[ f shape | shape <- list ]`"
+            }
+            (_, Some(Why::Field { .. } | Why::Item { .. })) => {
+                "a list inside a list: join them with `++`, as in `[a, b] ++ list`"
+            }
+            (_, Some(Why::Bound)) => "the number of its elements is `count list`",
+            _ => "`at 0 list` is the first element; to use each, write `[ f x | x <- list ]`",
+        };
+        error.with_help(help)
+    }
+
+    fn hint_of_heads(
+        &self,
+        error: Diagnostic,
+        expr: Option<&'p Expr>,
+        span: Span,
+        found: Head,
+        expected: Head,
+        why: Option<Why<'p>>,
+    ) -> Diagnostic {
+        use Head as H;
+        match (found, expected) {
+            (H::Light, H::Shape) => error.with_help("lights belong in the list `lights` of the scene"),
+            (H::Shape, H::Light) => error.with_help("shapes belong in the list `objects` of the scene"),
+            (H::Camera, H::Shape | H::Light) => error.with_help("the camera is a field of its own: `scene = { camera = ..., ... }`"),
+            (H::Material, H::Shape) => error.with_help("a material goes into a shape: `sphere { material = ... }`, or `shape |> paint material`"),
+            (H::Color, H::Material) => self.suggest(
+                error,
+                span,
+                |text| in_place(format!("classic {{ color = {text} }}"), why),
+                "a colour alone is not a material; a matte material of that colour:",
+            ),
+            (H::Function, H::Material) => self.suggest(
+                error,
+                span,
+                |text| in_place(format!("classic {{ color = {text} }}"), why),
+                "a texture alone is not a material; a matte material with that texture:",
+            ),
+            (H::Vec3, H::Color) => self.vector_for_color(error, expr, span, why),
+            (H::Color, H::Vec3) => {
+                error.with_help("the components of a colour c are `(c.r, c.g, c.b)`, a vector; directions and places are written `(x, y, z)`")
+            }
+            (H::Text, H::Color) => error.with_help("colours have no quotes: `#ff8800`, `rgb 1 0.5 0`, or the name of a definition"),
+            (H::Number, H::Color) => self.grey(error, expr, span, why),
+            (H::Number, H::Vec3) => error.with_help("a vector is written `(x, y, z)`"),
+            (H::Number, H::Vec2) => error.with_help("a vector is written `(x, y)`"),
+            (H::Vec2, H::Vec3) => error.with_help("the third component is missing: `(x, y, z)`"),
+            (H::Vec3, H::Vec2) => error.with_help("it has one component too many; `v.xy` drops the third of a vector v"),
+            (H::Vec2 | H::Vec3, H::Number) => self.vector_for_number(error, found, why),
+            (H::Color, H::Number) => error.with_help("a colour has the numbers `c.r`, `c.g` and `c.b`"),
+            (H::Number, H::Text) => self.shown(error, expr, span, why),
+            (H::Text, H::Number) => error.with_help("numbers have no quotes"),
+            (H::Number, H::Bool) => error.with_help("compare it with something, for example `x > 0` or `x == 1`"),
+            (H::Hit, H::Vec3) => self.suggest(error, span, |h| format!("{h}.p"), "the place that was hit is the field `p`:"),
+            (H::Vec3, H::Hit) => error.with_help("a hit is more than its place: give the whole hit `h` instead of `h.p`"),
+            (H::Record, _) => self.record_for(error, span, expected, why),
+            (H::Number, H::List) if matches!(why, Some(Why::Generator(_))) => {
+                self.suggest(error, span, |n| format!("[0 .. {n} - 1]"), "the whole numbers below it are a range:")
+            }
+            (H::Bool, H::Number) => error.with_help("`if condition then 1 else 0` makes a number of it"),
+            _ => error,
+        }
+    }
+
+    fn vector_for_number(&self, error: Diagnostic, found: Head, why: Option<Why<'p>>) -> Diagnostic {
+        let components = if found == Head::Vec2 { "`.x` and `.y`" } else { "`.x`, `.y` and `.z`" };
+        match why {
+            Some(Why::Order(..)) => {
+                error.with_help(format!("compare its components ({components}), or its `length`"))
+            }
+            _ => error.with_help(format!(
+                "it has the numbers {components}; `length v` is the length of a vector v"
+            )),
+        }
+    }
+
+    fn vector_for_color(
+        &self,
+        error: Diagnostic,
+        expr: Option<&'p Expr>,
+        span: Span,
+        why: Option<Why<'p>>,
+    ) -> Diagnostic {
+        let text = "a colour is made by `rgb` from red, green and blue:";
+        if let Some(ExprKind::Vector(parts)) = expr.map(|expr| &expr.kind) {
+            let words: Option<Vec<String>> =
+                parts.iter().map(|part| Some(self.as_argument(part, self.quoted(part.span)?))).collect();
+            if let Some(words) = words {
+                return error.with_suggestion(span, in_place(format!("rgb {}", words.join(" ")), why), text);
+            }
+        }
+        error
+            .with_help("a colour is made by `rgb` from red, green and blue: `rgb v.x v.y v.z` for a vector v")
+    }
+
+    /// An expression as it has to be written where an argument stands.
+    pub(super) fn as_argument(&self, expr: &Expr, text: &str) -> String {
+        let plain = matches!(
+            expr.kind,
+            ExprKind::Number(_)
+                | ExprKind::Bool(_)
+                | ExprKind::Text(_)
+                | ExprKind::Color(_)
+                | ExprKind::Name(_)
+                | ExprKind::Vector(_)
+                | ExprKind::List(_)
+                | ExprKind::Range { .. }
+                | ExprKind::Comprehension { .. }
+                | ExprKind::Record(_)
+                | ExprKind::Update { .. }
+                | ExprKind::Field { .. }
+                | ExprKind::Annotated { .. }
+        );
+        if plain { text.into() } else { format!("({text})") }
+    }
+
+    fn record_for(&self, error: Diagnostic, span: Span, expected: Head, why: Option<Why<'p>>) -> Diagnostic {
+        let constructors = constructors_of(expected);
+        match constructors.as_slice() {
+            [] => error,
+            [one] => self.suggest(
+                error,
+                span,
+                |text| in_place(format!("{} {text}", one.name), why),
+                &format!("a record alone is not {}; `{}` makes one of it:", expected.words(), one.name),
+            ),
+            several => {
+                let names: Vec<&str> = several.iter().map(|c| c.name).collect();
+                error.with_help(format!(
+                    "a record alone is not {}: write the name of a constructor before it, one of {}",
+                    expected.words(),
+                    crate::hry::program::listed(&names)
+                ))
+            }
+        }
+    }
+
+    /// A function where a plain value is expected: it may lack arguments.
+    fn missing_arguments(
+        &self,
+        error: Diagnostic,
+        expr: &'p Expr,
+        found: Ty,
+        (from, to): (Ty, Ty),
+        expected: Ty,
+        why: Option<Why<'p>>,
+    ) -> Diagnostic {
+        let store = &self.types.store;
+        if let (ExprKind::Lambda { .. }, Some(Why::Field { field, .. })) = (&expr.kind, why) {
+            return error.with_help(format!(
+                "`{}` has one value for all places: it cannot vary over a surface",
+                field.name
+            ));
+        }
+        if let Some(constructor) = self.named_constructor(expr) {
+            return self.bare_constructor(error, expr.span, constructor, why);
+        }
+        let (taken, result) = store.parameters(found);
+        if store.head(expected) == Some(Head::Material) && store.head(to) == Some(Head::Color) {
+            return self.hint_of_heads(error, Some(expr), expr.span, Head::Function, Head::Material, why);
+        }
+        let fits = store.head(result).is_some() && store.head(result) == store.head(expected);
+        let (callee, arguments) = application(expr);
+        let Some(name) = self.quoted(callee.span) else { return error };
+        if fits && taken.len() == 1 && store.head(from) == Some(Head::Hit) {
+            let text = format!(
+                "`{name}` varies over a surface; where there is a hit `h`, its value is `{} h`",
+                self.as_function(expr)
+            );
+            return error.with_help(text);
+        }
+        if !fits && !store.is_variable(result) {
+            return error;
+        }
+        let names: Vec<String> = (arguments.len()..arguments.len() + taken.len())
+            .filter_map(|index| self.parameter_name(callee, index))
+            .map(|name| format!("`{name}`"))
+            .collect();
+        let which =
+            if names.len() == taken.len() { format!(": {}", names.join(", ")) } else { String::new() };
+        let more = if arguments.is_empty() { "" } else { "still " };
+        error.with_help(format!("`{name}` {more}needs {}{which}", counted(taken.len(), "argument")))
+    }
+
+    fn as_function(&self, expr: &Expr) -> String {
+        self.quoted(expr.span).map_or_else(
+            || "f".into(),
+            |text| match expr.kind {
+                ExprKind::Name(_) | ExprKind::Apply { .. } => text.into(),
+                _ => format!("({text})"),
+            },
+        )
+    }
+
+    fn bare_constructor(
+        &self,
+        error: Diagnostic,
+        span: Span,
+        constructor: &'static Constructor,
+        why: Option<Why<'p>>,
+    ) -> Diagnostic {
+        let required: Vec<&str> =
+            constructor.fields.iter().filter(|f| f.default.is_none()).map(|f| f.name).collect();
+        let name = constructor.name;
+        if required.is_empty() {
+            let text = format!("`{name}` takes a record; an empty one leaves all at their defaults:");
+            return error.with_suggestion(span, in_place(format!("{name} {{}}"), why), text);
+        }
+        let fields: Vec<String> = required.iter().map(|field| format!("{field} = ...")).collect();
+        error.with_help(format!("`{name}` takes a record: `{name} {{ {} }}`", fields.join(", ")))
+    }
+
+    /// The constructor that a name means.
+    fn named_constructor(&self, expr: &Expr) -> Option<&'static Constructor> {
+        match (&expr.kind, self.names.uses.get(&expr.span.start)) {
+            (ExprKind::Name(_), Some(Meaning::Global(Global::Constructor(constructor)))) => Some(constructor),
+            _ => None,
+        }
+    }
+
+    /// A function that takes something else than is given to it.
+    fn other_parameter(
+        &self,
+        error: Diagnostic,
+        span: Span,
+        (given, taken): (Ty, Ty),
+        found: Ty,
+        expected: Ty,
+    ) -> Diagnostic {
+        let store = &self.types.store;
+        let heads = store.heads(given);
+        let likely = [Head::Vec3, Head::Vec2]
+            .into_iter()
+            .find(|head| !heads.is_any() && !heads.has(Head::Hit) && heads.has(*head));
+        match (likely.or_else(|| store.head(given)), store.head(taken)) {
+            (Some(Head::Vec3), Some(Head::Hit)) => self.suggest(
+                error,
+                span,
+                |text| format!("(\\h -> {} h.p)", parenthesised(text)),
+                "the function takes a place; to give it the place of the hit:",
+            ),
+            (Some(Head::Vec2), Some(Head::Hit)) => self.suggest(
+                error,
+                span,
+                |text| format!("(\\h -> {} h.uv)", parenthesised(text)),
+                "the function takes a vector of two; to give it the surface coordinates of the hit:",
+            ),
+            (Some(first), Some(Head::Hit)) if first != Head::Hit => {
+                let (parameters, _) = store.parameters(found);
+                let before = parameters.iter().position(|ty| store.head(*ty) == Some(Head::Hit));
+                let help = match before {
+                    Some(before) => {
+                        let what = counted(before, "argument");
+                        format!(
+                            "it takes {} first: give it {what} here, so that only the hit is left",
+                            first.words()
+                        )
+                    }
+                    None => {
+                        format!("it takes {}, not a hit: `\\h -> f ...` can make one of a hit", first.words())
+                    }
+                };
+                error.with_help(help)
+            }
+            _ => {
+                let count = |ty| store.parameters(ty).0.len();
+                let (found, expected) = (count(found), count(expected));
+                if found == expected {
+                    return error;
+                }
+                let words = [counted(found, "parameter"), counted(expected, "parameter")];
+                error.with_help(format!("it takes {}, but a function with {} is needed", words[0], words[1]))
+            }
+        }
+    }
+
+    /// The name of a parameter of a function, where it is known.
+    pub(super) fn parameter_name(&self, callee: &Expr, index: usize) -> Option<String> {
+        let ExprKind::Name(_) = callee.kind else { return None };
+        let Some(Meaning::Global(Global::Definition { module, index: definition })) =
+            self.names.uses.get(&callee.span.start)
+        else {
+            return None;
+        };
+        let definition = self.modules.get(*module)?.syntax.definitions.get(*definition)?;
+        match &definition.parameters.get(index)?.kind {
+            crate::hry::ast::PatternKind::Name(name) => Some(name.to_string()),
+            _ => None,
+        }
+    }
+}
+
+/// A call as it has to be written at its place: an argument needs parentheses.
+fn in_place(call: String, why: Option<Why<'_>>) -> String {
+    if matches!(why, Some(Why::Argument { .. })) { format!("({call})") } else { call }
+}
+
+/// Text that can be applied to an argument.
+fn parenthesised(text: &str) -> String {
+    let plain = text.chars().all(|c| c.is_alphanumeric() || c == '_' || c == '\'' || c == ' ' || c == '.');
+    if plain { text.into() } else { format!("({text})") }
+}
+
+/// The constructors that make something.
+pub(super) fn constructors_of(head: Head) -> Vec<&'static Constructor> {
+    use crate::hry::library::Makes;
+    let makes = match head {
+        Head::Shape => Makes::Shape,
+        Head::Material => Makes::Material,
+        Head::Light => Makes::Light,
+        Head::Camera => Makes::Camera,
+        _ => return Vec::new(),
+    };
+    CONSTRUCTORS.iter().filter(|constructor| constructor.makes == makes).collect()
+}
+
+/// The first field of a constructor that takes such a value.
+pub(super) fn field_for(
+    constructor: &'static Constructor,
+    head: Head,
+    used: &[&str],
+) -> Option<&'static str> {
+    let takes = |kind: FieldType| match head {
+        Head::Number => {
+            matches!(kind, FieldType::Number) || (constructor.name == "ambient" && kind == FieldType::Color)
+        }
+        Head::Vec2 => kind == FieldType::Vec2,
+        Head::Vec3 => kind == FieldType::Vec3,
+        Head::Color => kind == FieldType::Color,
+        Head::Material => kind == FieldType::Material,
+        _ => false,
+    };
+    // Directions and places: `center` rather than `normal` where both could be.
+    constructor
+        .fields
+        .iter()
+        .find(|field| takes(field.kind) && !used.contains(&field.name))
+        .map(|field| field.name)
+}

@@ -1,0 +1,223 @@
+//! What a user sees of every kind of mistake in names and types. The snapshots are to be read as by someone who has
+//! never seen the language: what was found, what was expected and why, how to mend it.
+
+use crate::common::{errors, shown};
+use insta::assert_snapshot;
+
+/// The mistakes of one kind: each a name and a text beside a scene.
+macro_rules! mistakes {
+    ($($kind:ident { $($name:ident: $text:literal;)+ })+) => {$(
+        #[test]
+        fn $kind() {
+            $(assert_snapshot!(concat!(stringify!($kind), "-", stringify!($name)), errors($text));)+
+        }
+    )+};
+}
+
+mistakes! {
+    names {
+        misspelt: "a = [shpere { radius = 1 }, sphere { radius = trun }]";
+        lerp: "a = lerp white black 0.5";
+        vec3: "a = vec3(1, 2, 3)";
+        pigment: "a = pigment { color = white }";
+        color_rgb: "a = color (rgb 1 0 0)";
+        pow: "a = pow 2 3";
+        len: "a = len [1, 2]";
+        null: "a = null";
+        radians: "a = sin (radians 30)";
+        nowhere: "a = thickness * 2";
+        field_alone: "a = radius * 2";
+        several: "a = foo + bar\nb = a + 1\nc = baz";
+        bound_twice: "f x x = x";
+        local_misspelt: "f width = let height = widht * 2 in height";
+        unknown_type: "f : Float -> Number\nf x = x";
+    }
+
+    fields {
+        of_a_constructor: "a = sphere { radios = 1 }";
+        color_of_a_sphere: "a = sphere { color = white }";
+        position_of_a_sphere: "a = sphere { position = (0, 1, 0) }";
+        of_another: "a = point { position = (0, 1, 0), angle = 1 }";
+        missing: "a = point { intensity = 1 }";
+        several_missing: "a = spotlight {}";
+        twice: "a = sphere { radius = 1, radius = 2 }";
+        twice_in_a_record: "a = { x = 1, x = 2 }";
+        of_a_record: "r = { width = 1, height = 2 }\na = r.widht";
+        of_a_vector: "a = (1, 2).z";
+        length_of_a_vector: "v = (1, 2, 3)\na = v.length";
+        of_a_color: "a = #ffffff.x";
+        of_a_hit: "f h = h.p.x + h.position.x\na = classic { reflection = f }";
+        of_a_known_hit: "f : Hit -> Number\nf h = h.position.x";
+        of_a_list: "a = [1, 2].length";
+        of_a_shape: "a = (sphere {}).radius";
+        of_a_number: "n = 1\na = n.x";
+        hit_twice: "f h = h.p.w";
+        update_of_none: "r = { a = 1 }\nb = { r | c = 2 }";
+        update_of_a_vector: "v = (1, 2, 3)\nb = { v | x = 2 }";
+        update_of_another_type: "r = { a = 1 }\nb = { r | a = \"x\" }";
+        late: "height r = r.size * 2\na = height { siez = 1 }";
+        late_constructor: "ball r = sphere r\na = ball { radios = 1 }";
+    }
+
+    values_of_fields {
+        text_for_a_number: "a = sphere { radius = \"big\" }";
+        number_for_a_vector: "a = sphere { center = 1 }";
+        two_for_three: "a = sphere { center = (1, 2) }";
+        vector_for_a_color: "a = classic { color = (1, 0.5, 0) }";
+        color_for_a_vector: "a = sphere { center = white }";
+        color_for_a_material: "a = sphere { material = white }";
+        texture_for_a_material: "a = sphere { material = checker white black }";
+        text_for_a_color: "a = classic { color = \"red\" }";
+        not_varying: "a = sphere { radius = \\h -> h.p.x }";
+        function_of_a_place: "wave p = white * sin p.x * p.z\na = classic { color = wave }";
+        typed_function_of_a_place: "wave : Vec3 -> Color\nwave p = white * p.z\na = classic { color = wave }";
+        without_its_size: "tiles : Number -> Hit -> Color\ntiles size h = white * h.p.x / size\na = classic { color = tiles }";
+        vector_from_a_texture: "a = classic { color = \\h -> h.p }";
+        number_for_bumps: "a = classic { bump = 0.5 }";
+        radius_of_zero: "a = sphere { radius = 0 }";
+        negative_size: "a = box { size = (1, -1, 2) }";
+        degrees_for_radians: "a = perspective { from = (0, 0, 5), fov = 40 }";
+        no_direction: "a = plane { normal = (0, 0, 0) }";
+    }
+
+    constructors {
+        without_braces: "a = sphere 0.5";
+        povray: "a = sphere (0, 1, 0) 0.5";
+        bare: "a = [sphere {}, cube]";
+        bare_light: "f : Light -> Number\nf l = 1\na = f point";
+        too_much: "a = sphere { radius = 1 } (0, 1, 0)";
+        record_alone: "a = union { radius = 1 } (sphere {})";
+        piped: "a = 0.5 |> sphere";
+    }
+
+    calls {
+        with_commas: "a = mix(white, black, 0.5)";
+        with_commas_and_space: "a = atan2 (1, 2)";
+        negative_argument: "f n = n + 1\na = let n = 5 in n -1";
+        negative_argument_of_a_call: "a = sin 1 -1";
+        too_many: "a = sin 1 2";
+        too_many_names: "a = sin sqrt 2";
+        too_few: "a = 1 + mix 1 2";
+        too_few_in_a_list: "ring n shape = [shape | _ <- [1 .. n]]\na = [1] ++ ring 3";
+        number_called: "n = 3\na = n 4";
+        product: "f x = 2 x";
+        wrong_order: "a = translate (sphere {}) (0, 1, 0)";
+        number_for_a_vector: "a = sphere {} |> translate 1";
+        number_for_a_shape: "a = scale 2 3";
+        hit_for_a_place: "f : Hit -> Number\nf h = noise h";
+        place_for_a_hit: "f : Hit -> Number\nf h = h.p.x\ng h = f h.p";
+        pipe_to_a_value: "a = 1 |> 2";
+        compose: "a = show >> sin";
+        many_refused: "a = smoothstep \"0\" 1 2";
+        commas_of_vectors: "a = dot((1, 2, 3), (4, 5, 6))";
+        list_index: "list = [1, 2, 3]\na = list 0";
+    }
+
+    operators {
+        text_and_number: "a = \"n = \" + 1";
+        vectors: "a = (1, 2) + (1, 2, 3)";
+        color_and_vector: "a = white * (1, 2, 3)";
+        shapes: "a = sphere {} + cube {}";
+        lists: "a = [1] + [2]";
+        functions: "a = classic { color = checker white black * 0.5 }";
+        condition: "a = true * 2";
+        power: "a = 2 ^ (1, 2)";
+        not_a_condition: "f x = x and 1";
+        not_number: "a = not 1";
+        ordered_vectors: "a = (1, 2) < (2, 3)";
+        compared: "a = 1 == \"1\"";
+        compared_functions: "a = sin == cos";
+        compared_shapes: "a = sphere {} == sphere {}";
+        append_an_element: "a = [1, 2] ++ 3";
+        append_to_an_element: "a = sphere {} ++ [cube {}]";
+        append_number: "a = \"n = \" ++ 1";
+        late: "sum2 a b = a + b\nc = sum2 \"a\" 1";
+        late_vectors: "sum2 a b = a + b\nc = sum2 (1, 2) (1, 2, 3)";
+    }
+
+    branches {
+        condition: "a = if 1 then 2 else 3";
+        condition_of_a_vector: "f h = if h.p then 1 else 2";
+        differ: "a = if true == false then 1 else \"two\"";
+        color_and_number: "f x = if x > 0 then white else 0";
+        arms: "f x = match x { 0 -> white, 1 -> \"black\", _ -> black }";
+        pattern: "f x = match x + 1 { \"a\" -> 1, _ -> 2 }";
+        patterns: "f x = match x { 0 -> 1, true -> 2, _ -> 3 }";
+        vector_pattern: "f = match (1, 2, 3) { (x, y) -> x + y }";
+        missing_bool: "f x = match x { true -> 1 }";
+        missing_empty: "f list = match list { [x, ..] -> x }";
+        missing_longer: "f list = match list { [] -> 0, [x] -> x }";
+        missing_between: "f list = match list { [] -> 0, [_, y, ..] -> y }";
+        missing_number: "f x = match x { 0 -> 1, 1 -> 2 }";
+    }
+
+    lists {
+        mixed: "a = [1, 2, \"three\"]";
+        color_among_numbers: "a = [0, 1, #fff]";
+        light_among_shapes: "a = [sphere {}, point { position = (0, 1, 0) }]";
+        nested: "ring n = [sphere {} | _ <- [1 .. n]]\na = [cube {}, ring 3]";
+        range: "a = [0 .. \"3\"]";
+        range_of_a_list: "list = [1, 2]\na = [0 .. list]";
+        generator: "n = 4\na = [i | i <- n]";
+        guard: "a = [i | i <- [1 .. 3], i + 1]";
+        component: "a = (1, \"2\", 3)";
+        vector_in_a_vector: "v = (1, 2)\na = (v, 3)";
+    }
+
+    annotations {
+        wrong: "a : Text\na = 1";
+        result: "f : Number -> Color\nf x = x * 2";
+        not_a_function: "f : Number\nf x = x";
+        too_few: "f : Number -> Number\nf a b = a + b";
+        too_general: "f : a -> a\nf x = x + 1";
+        two_variables: "f : a -> b\nf x = x";
+        numerics: "f : numeric -> numeric1 -> numeric\nf a b = a + b";
+        inside: "a = (1 : Text)";
+        escape: "f x = let g : a -> a\n          g y = x\n      in g 1";
+    }
+
+    recursion {
+        infinite: "f x = f";
+        itself: "f x = x x";
+        other_type: "f n = if n == 0 then 1 else f \"x\"";
+        result: "f n = if n == 0 then \"end\" else f (n - 1) + 1";
+        polymorphic: "f : a -> Number\nf x = f [x]";
+    }
+}
+
+/// The mistakes of a scene: each a name and a whole file.
+macro_rules! scenes {
+    ($($name:ident: $text:literal;)+) => {
+        #[test]
+        fn scenes() {
+            $(assert_snapshot!(concat!("scenes-", stringify!($name)), shown($text));)+
+        }
+    };
+}
+
+scenes! {
+    none: "ball = sphere {}\n";
+    empty: "-- nothing yet\n";
+    misspelt: "scen = { objects = [ sphere {} ] }\n";
+    main: "main = { objects = [ sphere {} ] }\n";
+    a_shape: "scene = sphere {}\n";
+    a_list: "scene = [sphere {}, cube {}]\n";
+    a_number: "scene = 3\n";
+    unknown_field: "scene = { object = [ sphere {} ] }\n";
+    one_shape: "scene = { objects = sphere {} }\n";
+    light_in_objects: "scene = { objects = [ sphere {}, point { position = (0, 1, 0) } ] }\n";
+    shape_in_lights: "scene = { lights = [ sphere {} ] }\n";
+    material_in_objects: "scene = { objects = [ classic {} ] }\n";
+    camera_in_objects: "scene = { objects = [ perspective { from = (0, 1, 2) } ] }\n";
+    list_in_objects: "ring n = [sphere {} | _ <- [1 .. n]]\nscene = { objects = [ ring 3, cube {} ] }\n";
+    shape_after_list: "ring n = [sphere {} | _ <- [1 .. n]]\nscene = { objects = ring 3 ++ cube {} }\n";
+    function_in_objects: "ring n = [sphere {} | _ <- [1 .. n]]\nscene = { objects = ring }\n";
+    size_of_one: "scene = { size = 800, objects = [] }\n";
+    fraction_of_samples: "scene = { samples = 1.5, objects = [] }\n";
+    camera_without_braces: "scene = { camera = perspective, objects = [] }\n";
+    background_of_a_hit: "scene = { background = \\h -> white * h.p.x, objects = [] }\n";
+    two_parameters: "scene t s = { objects = [ sphere { radius = t * s } ] }\n";
+    text_for_time: "scene t = { objects = [ sphere { radius = t ++ \"x\" } ] }\n";
+    through_another: "base = { objects = [], lihgts = [] }\nscene = base\n";
+    several: "ball = sphere { radios = 1 }\n\ngold = classic { color = (1, 0.8, 0) }\n\nscene t = {\n  camera = perspective { form = (0, 1, 2) },\n  lights = [ point { position = 3 } ],\n  objects = [ ball |> paint golden, sphere { radius = \"1\" } ],\n}\n";
+}
