@@ -148,6 +148,13 @@ impl Geometry {
         Ok(Solid { first, leaves: leaves.into(), nodes: nodes.into() })
     }
 
+    /// What the leaves take.
+    #[cfg(test)]
+    pub(super) fn bytes(&self) -> usize {
+        let Self { shapes, leaves, placements, .. } = self;
+        size_of_val(&shapes[..]) + size_of_val(&leaves[..]) + size_of_val(&placements[..])
+    }
+
     /// How many leaves there are.
     pub(super) fn len(&self) -> usize {
         self.leaves.len()

@@ -2,9 +2,10 @@
 
 use super::*;
 use hray_core::{
-    Background, Camera, DVec3, Encoding, NoiseTexture, Plane, Primitive, Resolution, Scene, Shape, Sphere,
-    Texture, WindowCamera,
+    Background, Camera, Csg, CsgOperation, Cuboid, DAffine3, DMat3, DVec3, Encoding, Field, NoiseTexture,
+    Plane, Primitive, Resolution, Scene, Shape, Sphere, Texture, WindowCamera,
 };
+use hray_expr::{Binary, Builder, Input, Unary};
 use std::num::NonZeroU32;
 use std::sync::Arc;
 
@@ -78,8 +79,78 @@ fn integrator(description: &Description) -> Integrator {
     }
 }
 
-fn colors(level: Level, batch: usize) -> (Vec<[u64; 3]>, RayCounts) {
-    let mut integrator = integrator(&description());
+/// The same with everything that the thesis did not have: boxes, solids, placements, functions, other lights.
+fn rich(rules: hray_core::Integrator) -> Description {
+    let mut description = Description { integrator: rules, ..description() };
+    let scene = &mut description.scene;
+    let colored = |inputs, a| {
+        let mut builder = Builder::new(100);
+        let a = builder.constant(a).unwrap();
+        let outputs = <[Input; 3]>::map(inputs, |input| {
+            let x = builder.input(input).unwrap();
+            let x = builder.binary(Binary::Mul, x, a).unwrap();
+            builder.unary(Unary::Abs, x).unwrap()
+        });
+        Arc::new(builder.finish(&outputs))
+    };
+    let number = |input, a| {
+        let mut builder = Builder::new(100);
+        let a = builder.constant(a).unwrap();
+        let x = builder.input(input).unwrap();
+        let x = builder.binary(Binary::Mul, x, a).unwrap();
+        let x = builder.unary(Unary::Floor, x).unwrap();
+        let two = builder.constant(2.0).unwrap();
+        let x = builder.binary(Binary::Modulo, x, two).unwrap();
+        Field::Function(Arc::new(builder.finish(&[x])))
+    };
+    let varying = Arc::new(hray_core::Material {
+        reflection: number(Input::Px, 0.3),
+        transmission: number(Input::Wy, 0.2),
+        refractive_index: 1.4.into(),
+        shine: number(Input::Pz, 0.1),
+        highlight: Some(0.3.into()),
+        glow: Some(Texture::Function(colored([Input::U, Input::V, Input::Time], 0.1))),
+        bump: Some(colored([Input::Px, Input::Py, Input::Pz], 0.02)),
+        ..hray_core::Material::matte(Texture::Function(colored([Input::Nx, Input::Ny, Input::Nz], 0.9)))
+    });
+    let noisy = scene.primitives[7].material.clone();
+    let turned = DAffine3 {
+        matrix3: DMat3::from_rotation_y(0.7) * DMat3::from_diagonal(DVec3::new(1.0, 1.5, 0.7)),
+        translation: DVec3::new(10.0, 5.0, -60.0),
+    };
+    let place = |translation| Some(Arc::new(DAffine3 { translation, ..turned }));
+    let part = |shape, transform, material: &Arc<hray_core::Material>| Primitive {
+        shape,
+        transform,
+        material: material.clone(),
+    };
+    let cube = |half: f64| Shape::Cuboid(Cuboid { min: DVec3::splat(-half), max: DVec3::splat(half) });
+    let ball = |radius| Shape::Sphere(Sphere { radius, center: DVec3::new(3.0, 2.0, 9.0) });
+    let operands = [part(cube(14.0), None, &varying), part(ball(15.0), place(DVec3::ZERO), &noisy)];
+    let solid = Shape::Csg(Arc::new(Csg { operation: CsgOperation::Difference, operands }));
+    scene.primitives.extend([
+        part(cube(9.0), place(DVec3::new(20.0, -20.0, -50.0)), &varying),
+        part(ball(11.0), place(DVec3::new(-30.0, 10.0, -55.0)), &noisy),
+        part(solid, place(DVec3::new(-8.0, -12.0, -40.0)), &varying),
+        part(ball(12.0), None, &varying),
+    ]);
+    scene.lights.extend([
+        Light::Directional { direction: DVec3::new(0.6, -0.8, 0.0), intensity: Rgb::new(0.2, 0.1, 0.2) },
+        Light::Spot {
+            position: DVec3::new(0.0, 50.0, 30.0),
+            axis: DVec3::new(0.0, -0.6, -0.8),
+            cos_inner: 0.95,
+            cos_outer: 0.7,
+            intensity: Rgb::new(0.5, 0.6, 0.4),
+        },
+    ]);
+    scene.background = hray_core::Background::Function(colored([Input::Wx, Input::V, Input::Pz], 0.8));
+    scene.time = 3.0;
+    description
+}
+
+fn colors(description: &Description, level: Level, batch: usize) -> (Vec<[u64; 3]>, RayCounts) {
+    let mut integrator = integrator(description);
     integrator.level = level;
     let points: Vec<[f64; 2]> =
         (0..61 * 47).map(|i| [f64::from(i % 61) * 1.3 - 40.0, f64::from(i / 61) * 1.3 - 30.0]).collect();
@@ -92,16 +163,37 @@ fn colors(level: Level, batch: usize) -> (Vec<[u64; 3]>, RayCounts) {
 
 #[test]
 fn neither_the_width_of_vectors_nor_the_size_of_batches_changes_a_bit() {
-    let expected = colors(Level::baseline(), BATCH);
-    assert!(expected.1.reflection > 1000 && expected.1.refraction > 1000, "{:?}", expected.1);
-    let mut levels = vec![Level::new()];
-    #[cfg(target_arch = "x86_64")]
-    levels.extend(Level::new().as_avx2().map(Level::Avx2));
-    for level in levels {
-        for batch in [1, 7, 64, BATCH] {
-            assert!(colors(level, batch) == expected, "{level:?}, batches of {batch}");
+    let rules = [hray_core::Integrator::Classic2005, hray_core::Integrator::Classic];
+    for description in [description()].into_iter().chain(rules.map(rich)) {
+        let expected = colors(&description, Level::baseline(), BATCH);
+        assert!(expected.1.reflection > 1000 && expected.1.refraction > 1000, "{:?}", expected.1);
+        let mut levels = vec![Level::new()];
+        #[cfg(target_arch = "x86_64")]
+        levels.extend(Level::new().as_avx2().map(Level::Avx2));
+        for level in levels {
+            for batch in [1, 7, 64, BATCH] {
+                assert!(colors(&description, level, batch) == expected, "{level:?}, batches of {batch}");
+            }
         }
     }
+}
+
+/// A million spheres that share a material, each with its place in the list or moved there.
+#[test]
+fn a_million_spheres_are_prepared_in_little_memory() {
+    let material = Arc::new(hray_core::Material::matte(Texture::Solid(Rgb::BLACK)));
+    let mut description = description();
+    let primitive = |i: u32| Primitive {
+        shape: Shape::Sphere(Sphere { radius: 0.3, center: DVec3::new(f64::from(i), 0.0, 0.0) }),
+        transform: None,
+        material: material.clone(),
+    };
+    description.scene.primitives = (0..1_000_000).map(primitive).collect();
+    let start = std::time::Instant::now();
+    let integrator = integrator(&description);
+    assert!(start.elapsed().as_secs_f64() < 2.0, "{:?}", start.elapsed());
+    assert_eq!((integrator.geometry.len(), integrator.materials.len()), (1_000_000, 1));
+    assert!(integrator.geometry.bytes() < 120 * 1_000_000);
 }
 
 #[test]

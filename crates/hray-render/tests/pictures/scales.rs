@@ -176,11 +176,11 @@ fn total_reflection_mirrors() {
     let block = of(cuboid(v(-1.0, -9.0, -9.0), v(9.0, 9.0, 9.0)), &glass(1.5));
     let glow = Some(Texture::Solid(gray(0.75)));
     let lamp = Arc::new(Material { glow, ..Material::matte(Texture::Solid(Rgb::BLACK)) });
-    let inside = of(sphere(v(2.0, 0.0, -1.0 / 3.0f64.sqrt() * 2.0), 1.0), &lamp);
+    let inside = of(sphere(v(1.0, 0.0, -2.0 * 3.0f64.sqrt()), 0.5), &lamp);
     let mut description = description(1, vec![block, inside], Vec::new());
     let Camera::Perspective(camera) = &mut description.scene.camera else { panic!() };
-    // The ray leads from (1, 0, 2/√3) to the side at x = -1 and is mirrored there to (1, 0, -2/√3).
-    (camera.from, camera.to) = (v(1.0, 0.0, 2.0 / 3.0f64.sqrt()), v(-1.0, 0.0, 0.0));
+    // The ray leads from (1, 0, 2√3) to the side at x = -1 and is mirrored there to (1, 0, -2√3).
+    (camera.from, camera.to) = (v(1.0, 0.0, 2.0 * 3.0f64.sqrt()), v(-1.0, 0.0, 0.0));
     assert!((colors(&description)[0].r - 0.75).abs() < 1e-12);
 }
 
