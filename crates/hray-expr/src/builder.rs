@@ -1,11 +1,14 @@
-//! Building a graph, sharing what is the same and folding what is constant.
+//! Making graphs: constants are folded and equal computations shared as nodes are made.
 
 use crate::{Binary, Block, Function, Input, Loop, Node, NodeId, NoiseKind, Unary};
 use std::collections::HashMap;
 use std::fmt;
 use std::sync::Arc;
 
-/// A graph has more nodes than it may have.
+/// Loops may stand in loops up to this deep, so that what walks them may recurse.
+const MAX_NESTING: usize = 32;
+
+/// A graph would have more nodes than its builder allows, or loops in loops more than 32 deep.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct GraphTooLarge {
     /// The most nodes.
@@ -14,40 +17,45 @@ pub struct GraphTooLarge {
 
 impl fmt::Display for GraphTooLarge {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "the function takes more than {} operations", self.budget)
+        write!(
+            f,
+            "the function needs more than {} operations, or loops nested more than {MAX_NESTING} deep",
+            self.budget
+        )
     }
 }
 
 impl std::error::Error for GraphTooLarge {}
 
-/// Why something has no derivative.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum DerivativeError {
-    /// It would take too many nodes.
-    TooLarge(GraphTooLarge),
-    /// It is the result of a loop.
-    Loop,
+/// Makes a graph, node by node.
+///
+/// A node whose operands are all constants becomes a constant, and a node that exists already is found again.
+/// Nothing else is rewritten, so that what is computed is what was written, to the last bit.
+///
+/// A [`NodeId`] belongs to the builder that made it.
+pub struct Builder {
+    budget: usize,
+    nodes: Vec<Node>,
+    /// Of each node, how many of the open loops it is inside of; 0 if it depends on no loop's state.
+    depths: Vec<u8>,
+    /// Where each node is that can be shared. Only ever looked up in.
+    known: HashMap<Key, NodeId>,
+    /// The loops with given arguments.
+    loops: HashMap<Box<[NodeId]>, Vec<NodeId>>,
+    open: Vec<OpenLoop>,
+    /// How many numbers of loops' states there are.
+    arguments: u32,
 }
 
-impl From<GraphTooLarge> for DerivativeError {
-    fn from(error: GraphTooLarge) -> Self {
-        Self::TooLarge(error)
-    }
+/// A loop whose body is being made.
+struct OpenLoop {
+    /// The first node of it: its arguments are `start` and the following.
+    start: usize,
+    state: usize,
 }
 
-impl fmt::Display for DerivativeError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::TooLarge(error) => error.fmt(f),
-            Self::Loop => f.write_str("the result of a loop has no known derivative"),
-        }
-    }
-}
-
-impl std::error::Error for DerivativeError {}
-
-/// What makes two nodes the same.
-#[derive(Clone, PartialEq, Eq, Hash)]
+/// What makes a node the same as another. Images are the same when they are one in memory.
+#[derive(PartialEq, Eq, Hash)]
 enum Key {
     Constant(u64),
     Input(Input),
@@ -60,90 +68,51 @@ enum Key {
     Result(NodeId, u8),
 }
 
-/// A graph that is being built. Equal nodes are one; what is made of constants is a constant. Nothing else is rewritten, so
-/// that a graph computes the bits that its expression says.
-#[derive(Debug)]
-pub struct Builder {
-    nodes: Vec<Node>,
-    /// How many loops a node is inside of: 0 outside, 1 where it depends on the outermost loop's arguments, and so on.
-    levels: Vec<u32>,
-    known: HashMap<Key, NodeId>,
-    budget: usize,
-    /// The open loops' first arguments, and how many each has.
-    loops: Vec<(u32, usize)>,
-    /// Arguments made so far, so that each is another.
-    arguments: u32,
-}
-
-impl fmt::Debug for Key {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str("Key")
-    }
-}
-
-type Made = Result<NodeId, GraphTooLarge>;
-
 impl Builder {
-    /// A graph of at most `budget` nodes.
+    /// With room for `budget` nodes, those inside of loops counted too.
     #[must_use]
     pub fn new(budget: usize) -> Self {
         Self {
-            nodes: Vec::new(),
-            levels: Vec::new(),
-            known: HashMap::new(),
             budget: budget.min(u32::MAX as usize),
-            loops: Vec::new(),
+            nodes: Vec::new(),
+            depths: Vec::new(),
+            known: HashMap::new(),
+            loops: HashMap::new(),
+            open: Vec::new(),
             arguments: 0,
         }
     }
 
-    /// How many nodes there are.
+    /// How many nodes have been made.
     #[must_use]
-    pub fn len(&self) -> usize {
+    pub const fn len(&self) -> usize {
         self.nodes.len()
     }
 
-    /// Whether there are none.
+    /// Whether none has.
     #[must_use]
-    pub fn is_empty(&self) -> bool {
+    pub const fn is_empty(&self) -> bool {
         self.nodes.is_empty()
     }
 
-    fn push(&mut self, node: Node, level: u32) -> Made {
-        if self.nodes.len() >= self.budget {
-            return Err(GraphTooLarge { budget: self.budget });
-        }
-        self.nodes.push(node);
-        self.levels.push(level);
-        Ok(NodeId(self.nodes.len() as u32 - 1))
+    /// The node of that place.
+    pub(crate) fn node(&self, id: NodeId) -> &Node {
+        &self.nodes[id.index()]
     }
 
-    fn level(&self, of: &[NodeId]) -> u32 {
-        of.iter().filter_map(|id| self.levels.get(id.0 as usize)).copied().max().unwrap_or(0)
-    }
-
-    fn shared(&mut self, key: Key, node: Node, of: &[NodeId]) -> Made {
-        if let Some(id) = self.known.get(&key) {
-            return Ok(*id);
-        }
-        let id = self.push(node, self.level(of))?;
-        self.known.insert(key, id);
-        Ok(id)
-    }
-
-    /// A constant.
+    /// A number.
     ///
     /// # Errors
-    /// [`GraphTooLarge`], as all that follow.
-    pub fn constant(&mut self, value: f64) -> Made {
-        self.shared(Key::Constant(value.to_bits()), Node::Constant(value), &[])
+    /// [`GraphTooLarge`], as of all functions that make nodes.
+    pub fn constant(&mut self, v: f64) -> Result<NodeId, GraphTooLarge> {
+        self.share(Key::Constant(v.to_bits()), || Node::Constant(v))
     }
 
-    /// The value of a node, where it is a constant.
+    /// The number, where the node is a constant.
     #[must_use]
     pub fn as_constant(&self, id: NodeId) -> Option<f64> {
-        match self.nodes.get(id.0 as usize) {
-            Some(Node::Constant(value)) => Some(*value),
+        match self.node(id) {
+            Node::Constant(v) => Some(*v),
             _ => None,
         }
     }
@@ -152,110 +121,127 @@ impl Builder {
     ///
     /// # Errors
     /// [`GraphTooLarge`].
-    pub fn input(&mut self, input: Input) -> Made {
-        self.shared(Key::Input(input), Node::Input(input), &[])
+    pub fn input(&mut self, input: Input) -> Result<NodeId, GraphTooLarge> {
+        self.share(Key::Input(input), || Node::Input(input))
     }
 
     /// A function of one number.
     ///
     /// # Errors
     /// [`GraphTooLarge`].
-    pub fn unary(&mut self, f: Unary, a: NodeId) -> Made {
-        match self.as_constant(a) {
-            Some(a) => self.constant(f.apply(a)),
-            None => self.shared(Key::Unary(f, a), Node::Unary(f, a), &[a]),
+    pub fn unary(&mut self, f: Unary, a: NodeId) -> Result<NodeId, GraphTooLarge> {
+        if let Some(a) = self.as_constant(a) {
+            return self.constant(f.apply(a));
         }
+        self.share(Key::Unary(f, a), || Node::Unary(f, a))
     }
 
     /// A function of two numbers.
     ///
     /// # Errors
     /// [`GraphTooLarge`].
-    pub fn binary(&mut self, f: Binary, a: NodeId, b: NodeId) -> Made {
-        match (self.as_constant(a), self.as_constant(b)) {
-            (Some(a), Some(b)) => self.constant(f.apply(a, b)),
-            _ => self.shared(Key::Binary(f, a, b), Node::Binary(f, a, b), &[a, b]),
+    pub fn binary(&mut self, f: Binary, a: NodeId, b: NodeId) -> Result<NodeId, GraphTooLarge> {
+        if let (Some(a), Some(b)) = (self.as_constant(a), self.as_constant(b)) {
+            return self.constant(f.apply(a, b));
         }
+        self.share(Key::Binary(f, a, b), || Node::Binary(f, a, b))
     }
 
-    /// The second where the first is true (not 0), else the third.
+    /// `then` where `condition` is true (not 0), else `otherwise`. Both are computed at every point, unless the
+    /// condition is constant.
     ///
     /// # Errors
     /// [`GraphTooLarge`].
-    pub fn select(&mut self, condition: NodeId, then: NodeId, otherwise: NodeId) -> Made {
+    pub fn select(
+        &mut self,
+        condition: NodeId,
+        then: NodeId,
+        otherwise: NodeId,
+    ) -> Result<NodeId, GraphTooLarge> {
         if then == otherwise {
             return Ok(then);
         }
-        match self.as_constant(condition) {
-            Some(condition) => Ok(if condition != 0.0 { then } else { otherwise }),
-            None => {
-                let of = [condition, then, otherwise];
-                self.shared(
-                    Key::Select(condition, then, otherwise),
-                    Node::Select(condition, then, otherwise),
-                    &of,
-                )
-            }
+        if let Some(condition) = self.as_constant(condition) {
+            return Ok(if condition == 0.0 { otherwise } else { then });
         }
+        self.share(Key::Select(condition, then, otherwise), || Node::Select(condition, then, otherwise))
     }
 
-    /// Noise at a point.
+    /// Noise at a point, given in cells.
     ///
     /// # Errors
     /// [`GraphTooLarge`].
-    pub fn noise(&mut self, kind: NoiseKind, seed: u64, p: [NodeId; 3]) -> Made {
-        self.shared(Key::Noise(kind, seed, p), Node::Noise(kind, seed, p), &p)
+    pub fn noise(&mut self, kind: NoiseKind, seed: u64, p: [NodeId; 3]) -> Result<NodeId, GraphTooLarge> {
+        self.share(Key::Noise(kind, seed, p), || Node::Noise(kind, seed, p))
     }
 
-    /// A computation with several results: one node for each.
+    /// A computation with several results: one node for each. Loops are better made with
+    /// [`Builder::begin_loop`].
     ///
     /// # Errors
     /// [`GraphTooLarge`].
     pub fn block(&mut self, block: Block, arguments: &[NodeId]) -> Result<Vec<NodeId>, GraphTooLarge> {
         let results = block.results();
-        let key = match &block {
-            Block::Cells { seed } => Some(Key::Cells(*seed, arguments.into())),
-            Block::Image(image) => Some(Key::Image(Arc::as_ptr(image) as usize, arguments.into())),
-            Block::Loop(_) => None,
+        let arguments: Box<[NodeId]> = arguments.into();
+        let id = match &block {
+            Block::Cells { seed } => {
+                let key = Key::Cells(*seed, arguments.clone());
+                self.share(key, || Node::Block(block, arguments))?
+            }
+            Block::Image(image) => {
+                let key = Key::Image(Arc::as_ptr(image) as usize, arguments.clone());
+                self.share(key, || Node::Block(block, arguments))?
+            }
+            Block::Loop(_) => self.share_loop(block, arguments)?,
         };
-        let node = Node::Block(block, arguments.into());
-        let id = match key {
-            Some(key) => self.shared(key, node, arguments)?,
-            None => self.push(node, self.level(arguments))?,
-        };
-        (0..results)
-            .map(|i| self.shared(Key::Result(id, i as u8), Node::Result(id, i as u8), &[id]))
-            .collect()
+        (0..results).map(|i| self.result(id, i)).collect()
     }
 
-    /// Begins the body of a loop over a state of that many numbers: the nodes that stand for it.
+    fn share_loop(&mut self, block: Block, arguments: Box<[NodeId]>) -> Result<NodeId, GraphTooLarge> {
+        let known = self.loops.get(&arguments).into_iter().flatten();
+        let same = |id: &&NodeId| matches!(self.node(**id), Node::Block(other, _) if *other == block);
+        if let Some(&id) = known.clone().find(same) {
+            return Ok(id);
+        }
+        let id = self.push(Node::Block(block, arguments.clone()))?;
+        self.loops.entry(arguments).or_default().push(id);
+        Ok(id)
+    }
+
+    fn result(&mut self, block: NodeId, index: usize) -> Result<NodeId, GraphTooLarge> {
+        let Ok(index) = u8::try_from(index) else { return Err(self.too_large()) };
+        self.share(Key::Result(block, index), || Node::Result(block, index))
+    }
+
+    /// Begins a loop with `state` numbers of state, at most 256: gives the nodes that stand for them in its body.
     ///
     /// # Errors
-    /// [`GraphTooLarge`].
+    /// [`GraphTooLarge`]; then the loop has not begun.
     pub fn begin_loop(&mut self, state: usize) -> Result<Vec<NodeId>, GraphTooLarge> {
-        let level = self.loops.len() as u32 + 1;
-        let first = self.arguments;
-        let arguments: Result<Vec<NodeId>, _> = (0..state)
-            .map(|_| {
-                self.arguments += 1;
-                self.push(Node::Argument(self.arguments - 1), level)
-            })
-            .collect();
-        let arguments = arguments?;
-        self.loops.push((first, state));
-        Ok(arguments)
+        let fits = self.nodes.len().saturating_add(state) <= self.budget;
+        if self.open.len() >= MAX_NESTING || state > 256 || !fits {
+            return Err(self.too_large());
+        }
+        self.open.push(OpenLoop { start: self.nodes.len(), state });
+        let depth = self.open.len() as u8;
+        let arguments = (0..state).map(|_| {
+            let id = NodeId(self.nodes.len() as u32);
+            self.nodes.push(Node::Argument(self.arguments));
+            self.depths.push(depth);
+            self.arguments += 1;
+            id
+        });
+        Ok(arguments.collect())
     }
 
-    /// Gives up the innermost loop.
-    pub fn cancel_loop(&mut self) {
-        self.loops.pop();
-    }
-
-    /// Ends the body of the innermost loop: at most `max` times, until `until` is true, the state becomes `step`. The nodes
-    /// that stand for the state after it. What does not depend on the loop's state is computed once, before it.
+    /// Ends the innermost loop, and gives its results: the state, replaced by `step` until it has been `max` times
+    /// or `until` is true (not 0).
+    ///
+    /// What `until` and `step` need and depends on the state is done at every step; everything else is done once,
+    /// before the loop. The nodes of the state and what depends on them must not be used any more.
     ///
     /// # Errors
-    /// [`GraphTooLarge`]; the loop is given up then.
+    /// [`GraphTooLarge`]; the loop has ended all the same.
     pub fn end_loop(
         &mut self,
         max: u32,
@@ -263,112 +249,262 @@ impl Builder {
         until: NodeId,
         step: &[NodeId],
     ) -> Result<Vec<NodeId>, GraphTooLarge> {
-        let level = self.loops.len() as u32;
-        let Some((first, state)) = self.loops.pop() else { return Ok(initial.to_vec()) };
-        // What the body needs, in the order in which it was made.
-        let mut needed: Vec<u32> = Vec::new();
-        let mut seen = vec![false; self.nodes.len()];
-        let mut work: Vec<NodeId> = step.iter().copied().chain([until]).collect();
-        while let Some(id) = work.pop() {
-            let place = id.0 as usize;
-            if seen.get(place).copied().unwrap_or(true) {
-                continue;
-            }
-            seen[place] = true;
-            needed.push(id.0);
-            if self.levels[place] >= level {
-                work.extend(self.nodes[place].arguments());
-            }
+        let depth = self.open.len() as u8;
+        let Some(open) = self.open.pop() else { return Ok(initial.to_vec()) };
+        if max == 0 {
+            return Ok(initial.to_vec());
         }
-        needed.sort_unstable();
-        let mut places: HashMap<NodeId, NodeId> = HashMap::new();
-        let (mut nodes, mut captured) = (Vec::new(), Vec::new());
-        for id in needed {
-            let (node, outside) = (&self.nodes[id as usize], self.levels[id as usize] < level);
-            let node = match node {
-                Node::Constant(_) | Node::Input(_) => node.clone(),
-                _ if outside => {
-                    captured.push(NodeId(id));
-                    Node::Argument((state + captured.len() - 1) as u32)
-                }
-                Node::Argument(argument) => Node::Argument(argument - first),
-                node => node.map(|argument| places.get(&argument).copied().unwrap_or(argument)),
-            };
-            nodes.push(node);
-            places.insert(NodeId(id), NodeId(nodes.len() as u32 - 1));
-        }
-        let place = |id: &NodeId| places.get(id).copied().unwrap_or(*id);
+        let mut body = Body { builder: self, open: &open, depth, nodes: Vec::new(), captured: Vec::new() };
+        let places = body.collect(until, step);
+        let (nodes, captured) = (body.nodes, body.captured);
+        let place = |id: &NodeId| places.get(id).copied().unwrap_or(NodeId(0));
         let body = Loop {
-            state,
+            state: open.state,
             captured: captured.len(),
             max,
+            nodes,
             until: place(&until),
             step: step.iter().map(place).collect(),
-            nodes,
         };
         let arguments: Vec<NodeId> = initial.iter().copied().chain(captured).collect();
         self.block(Block::Loop(Arc::new(body)), &arguments)
     }
 
-    /// The function whose results are `outputs`; what they do not need is left out.
+    /// Ends the innermost loop without making it, after an error.
+    pub fn cancel_loop(&mut self) {
+        self.open.pop();
+    }
+
+    /// The function with these results. Nodes that they do not need are left out.
     #[must_use]
     pub fn finish(self, outputs: &[NodeId]) -> Function {
         let mut needed = vec![false; self.nodes.len()];
-        let mut work: Vec<NodeId> = outputs.to_vec();
-        while let Some(id) = work.pop() {
-            if let Some(slot) = needed.get_mut(id.0 as usize)
-                && !std::mem::replace(slot, true)
-            {
-                work.extend(self.nodes[id.0 as usize].arguments());
+        for output in outputs {
+            needed[output.index()] = true;
+        }
+        for (i, node) in self.nodes.iter().enumerate().rev() {
+            if needed[i] {
+                node.for_each_operand(|a| needed[a.index()] = true);
             }
         }
         let mut places = vec![NodeId(0); self.nodes.len()];
         let mut nodes = Vec::new();
-        for (id, node) in self.nodes.into_iter().enumerate() {
-            if needed[id] {
-                let node = node.map(|argument| places.get(argument.0 as usize).copied().unwrap_or(argument));
-                nodes.push(node);
-                places[id] = NodeId(nodes.len() as u32 - 1);
-            }
+        for (i, node) in self.nodes.iter().enumerate().filter(|(i, _)| needed[*i]) {
+            places[i] = NodeId(nodes.len() as u32);
+            nodes.push(node.map_operands(|a| places[a.index()]));
         }
-        let outputs = outputs.iter().map(|id| places.get(id.0 as usize).copied().unwrap_or(*id)).collect();
-        Function::new(nodes, outputs)
+        Function::new(nodes, outputs.iter().map(|id| places[id.index()]).collect())
+    }
+
+    const fn too_large(&self) -> GraphTooLarge {
+        GraphTooLarge { budget: self.budget }
+    }
+
+    fn share(&mut self, key: Key, node: impl FnOnce() -> Node) -> Result<NodeId, GraphTooLarge> {
+        if let Some(&id) = self.known.get(&key) {
+            return Ok(id);
+        }
+        let id = self.push(node())?;
+        self.known.insert(key, id);
+        Ok(id)
+    }
+
+    fn push(&mut self, node: Node) -> Result<NodeId, GraphTooLarge> {
+        if self.nodes.len() >= self.budget {
+            return Err(self.too_large());
+        }
+        let mut depth = 0;
+        node.for_each_operand(|a| depth = depth.max(self.depths[a.index()]));
+        let id = NodeId(self.nodes.len() as u32);
+        self.nodes.push(node);
+        self.depths.push(depth);
+        Ok(id)
     }
 }
 
-impl Node {
-    /// The nodes it is made of.
-    #[must_use]
-    pub fn arguments(&self) -> Vec<NodeId> {
-        match self {
-            Self::Constant(_) | Self::Input(_) | Self::Argument(_) => Vec::new(),
-            Self::Unary(_, a) | Self::Result(a, _) => vec![*a],
-            Self::Binary(_, a, b) => vec![*a, *b],
-            Self::Select(a, b, c) => vec![*a, *b, *c],
-            Self::Noise(_, _, p) => p.to_vec(),
-            Self::Block(_, arguments) => arguments.to_vec(),
-        }
-    }
+/// The body of a loop on its way out of the builder.
+struct Body<'a> {
+    builder: &'a Builder,
+    open: &'a OpenLoop,
+    depth: u8,
+    nodes: Vec<Node>,
+    /// What the body uses of the outside.
+    captured: Vec<NodeId>,
+}
 
-    /// The same of other nodes.
-    #[must_use]
-    pub fn map(&self, to: impl Fn(NodeId) -> NodeId) -> Self {
-        match self {
-            Self::Constant(_) | Self::Input(_) | Self::Argument(_) => self.clone(),
-            Self::Unary(f, a) => Self::Unary(*f, to(*a)),
-            Self::Result(a, i) => Self::Result(to(*a), *i),
-            Self::Binary(f, a, b) => Self::Binary(*f, to(*a), to(*b)),
-            Self::Select(a, b, c) => Self::Select(to(*a), to(*b), to(*c)),
-            Self::Noise(kind, seed, p) => Self::Noise(*kind, *seed, p.map(to)),
-            Self::Block(block, arguments) => {
-                Self::Block(block.clone(), arguments.iter().map(|a| to(*a)).collect())
+impl Body<'_> {
+    /// Moves what `until` and `step` need into the body, and says where it is there.
+    fn collect(&mut self, until: NodeId, step: &[NodeId]) -> HashMap<NodeId, NodeId> {
+        let start = self.open.start;
+        let mut needed = vec![false; self.builder.nodes.len() - start];
+        let roots = || std::iter::once(&until).chain(step);
+        for root in roots().filter(|id| self.inside(**id)) {
+            needed[root.index() - start] = true;
+        }
+        for i in (0..needed.len()).rev().filter(|&i| self.builder.depths[start + i] == self.depth) {
+            if needed[i] {
+                self.builder.nodes[start + i].for_each_operand(|a| {
+                    if self.inside(a) {
+                        needed[a.index() - start] = true;
+                    }
+                });
             }
         }
+        let mut places = HashMap::new();
+        for i in (0..needed.len()).filter(|&i| needed[i]) {
+            let id = NodeId((start + i) as u32);
+            let node = self.builder.node(id);
+            node.for_each_operand(|a| {
+                if !self.inside(a) {
+                    self.place_outside(a, &mut places);
+                }
+            });
+            // Its own arguments are the first nodes of a loop.
+            let node = match node {
+                Node::Argument(_) => Node::Argument(i as u32),
+                node => node.map_operands(|a| places.get(&a).copied().unwrap_or(NodeId(0))),
+            };
+            self.place(id, node, &mut places);
+        }
+        for root in roots() {
+            if !self.inside(*root) {
+                self.place_outside(*root, &mut places);
+            }
+        }
+        places
+    }
+
+    /// Whether a node changes from step to step.
+    fn inside(&self, id: NodeId) -> bool {
+        id.index() >= self.open.start && self.builder.depths[id.index()] == self.depth
+    }
+
+    /// Constants and inputs are taken along, everything else is captured.
+    fn place_outside(&mut self, id: NodeId, places: &mut HashMap<NodeId, NodeId>) {
+        if places.contains_key(&id) {
+            return;
+        }
+        let node = match self.builder.node(id) {
+            node @ (Node::Constant(_) | Node::Input(_)) => node.clone(),
+            _ => {
+                self.captured.push(id);
+                Node::Argument((self.open.state + self.captured.len() - 1) as u32)
+            }
+        };
+        self.place(id, node, places);
+    }
+
+    fn place(&mut self, id: NodeId, node: Node, places: &mut HashMap<NodeId, NodeId>) {
+        places.insert(id, NodeId(self.nodes.len() as u32));
+        self.nodes.push(node);
     }
 }
 
-impl Builder {
-    pub(crate) fn node(&self, id: NodeId) -> &Node {
-        &self.nodes[id.0 as usize]
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::NoiseTables;
+
+    #[test]
+    fn constants_fold_and_equal_nodes_are_one() {
+        let mut b = Builder::new(100);
+        let x = b.input(Input::Px).unwrap();
+        let one = b.constant(1.0).unwrap();
+        let two = b.binary(Binary::Add, one, one).unwrap();
+        assert_eq!(b.as_constant(two), Some(2.0));
+        assert_eq!(b.binary(Binary::Mul, x, two), b.binary(Binary::Mul, x, two));
+        assert_ne!(b.constant(0.0), b.constant(-0.0));
+        assert_eq!(b.constant(f64::NAN), b.constant(f64::NAN));
+        let len = b.len();
+        assert_eq!(b.select(one, x, two), Ok(x));
+        assert_eq!(b.select(x, two, two), Ok(two));
+        assert_eq!(b.len(), len);
+    }
+
+    #[test]
+    fn nothing_is_rewritten_that_could_change_a_bit() {
+        let mut b = Builder::new(100);
+        let x = b.input(Input::Px).unwrap();
+        let zero = b.constant(0.0).unwrap();
+        let product = b.binary(Binary::Mul, x, zero).unwrap();
+        let sum = b.binary(Binary::Add, product, zero).unwrap();
+        let f = b.finish(&[product, sum]);
+        let at = |x: f64| {
+            let mut inputs = [0.0; Input::COUNT];
+            inputs[Input::Px as usize] = x;
+            f.evaluate(&NoiseTables::default(), &inputs)
+        };
+        assert!(at(-1.0)[0].is_sign_negative() && at(-1.0)[1].is_sign_positive());
+        assert!(at(f64::INFINITY)[0].is_nan());
+    }
+
+    #[test]
+    fn what_no_output_needs_is_gone() {
+        let mut b = Builder::new(100);
+        let x = b.input(Input::Px).unwrap();
+        let y = b.input(Input::Py).unwrap();
+        b.unary(Unary::Sin, y).unwrap();
+        let z = b.unary(Unary::Cos, x).unwrap();
+        let f = b.finish(&[z, z]);
+        assert_eq!(f.nodes().len(), 2);
+        assert_eq!(f.inputs_used().collect::<Vec<_>>(), [Input::Px]);
+        assert_eq!(f.outputs(), [NodeId(1), NodeId(1)]);
+        assert_eq!(f.cost(), 2);
+    }
+
+    #[test]
+    fn the_budget_is_kept() {
+        let mut b = Builder::new(2);
+        let x = b.input(Input::Px).unwrap();
+        let y = b.unary(Unary::Sin, x).unwrap();
+        assert_eq!(b.unary(Unary::Sin, x), Ok(y));
+        assert_eq!(b.unary(Unary::Sin, y), Err(GraphTooLarge { budget: 2 }));
+        assert_eq!(b.begin_loop(1), Err(GraphTooLarge { budget: 2 }));
+        let mut b = Builder::new(1000);
+        for _ in 0..MAX_NESTING {
+            b.begin_loop(1).unwrap();
+        }
+        assert!(b.begin_loop(1).is_err());
+    }
+
+    /// The sum of i j over i < 4, j < x: loops in a loop, with captures from every level.
+    #[test]
+    fn loops_nest_and_hoist() {
+        let mut b = Builder::new(100);
+        let x = b.input(Input::Px).unwrap();
+        let zero = b.constant(0.0).unwrap();
+        let one = b.constant(1.0).unwrap();
+        let four = b.constant(4.0).unwrap();
+        let outer = b.begin_loop(2).unwrap();
+        let hoisted = b.unary(Unary::Floor, x).unwrap();
+        let inner = b.begin_loop(2).unwrap();
+        let product = b.binary(Binary::Mul, outer[0], inner[0]).unwrap();
+        let sum = b.binary(Binary::Add, inner[1], product).unwrap();
+        let next = b.binary(Binary::Add, inner[0], one).unwrap();
+        let done = b.binary(Binary::LessEqual, hoisted, inner[0]).unwrap();
+        let inner = b.end_loop(100, &[zero, outer[1]], done, &[next, sum]).unwrap();
+        let next = b.binary(Binary::Add, outer[0], one).unwrap();
+        let done = b.binary(Binary::Equal, outer[0], four).unwrap();
+        let outer = b.end_loop(50, &[zero, zero], done, &[next, inner[1]]).unwrap();
+        let f = b.finish(&outer);
+        let mut inputs = [0.0; Input::COUNT];
+        inputs[Input::Px as usize] = 3.5;
+        assert_eq!(f.evaluate(&NoiseTables::default(), &inputs), [4.0, (1.0 + 2.0 + 3.0) * 3.0]);
+        let floors = |nodes: &[Node]| nodes.iter().filter(|n| matches!(n, Node::Unary(..))).count();
+        assert_eq!(floors(f.nodes()), 1, "what does not change is outside");
+    }
+
+    #[test]
+    fn a_loop_ends_after_its_most_steps_and_may_swap() {
+        let mut b = Builder::new(100);
+        let x = b.input(Input::Px).unwrap();
+        let y = b.input(Input::Py).unwrap();
+        let never = b.constant(0.0).unwrap();
+        let state = b.begin_loop(2).unwrap();
+        let swapped = b.end_loop(3, &[x, y], never, &[state[1], state[0]]).unwrap();
+        let f = b.finish(&swapped);
+        let mut inputs = [0.0; Input::COUNT];
+        (inputs[0], inputs[1]) = (1.0, 2.0);
+        assert_eq!(f.evaluate(&NoiseTables::default(), &inputs), [2.0, 1.0]);
     }
 }

@@ -1,9 +1,12 @@
 //! A finished function: a graph with outputs.
 
-use crate::{Block, Input, Loop, Node, NodeId, NoiseKind, NoiseTables, cells, classic_noise, improved_noise};
+use crate::{Block, Input, Loop, Node, NodeId, NoiseKind, NoiseTables};
+use crate::{cells, classic_noise, improved_noise};
 
 /// A function of a hit with any number of results. Made by [`crate::Builder::finish`]; only what the outputs need
 /// is in it.
+///
+/// Two functions are equal when they are the same nodes in the same order, constants compared by their bits.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Function {
     nodes: Vec<Node>,
@@ -15,28 +18,60 @@ impl Function {
         Self { nodes, outputs }
     }
 
-    /// Its steps, arguments before what is made of them.
+    /// The nodes, each after its operands.
     #[must_use]
     pub fn nodes(&self) -> &[Node] {
         &self.nodes
     }
 
-    /// Its results, among the nodes.
+    /// Where the results are.
     #[must_use]
     pub fn outputs(&self) -> &[NodeId] {
         &self.outputs
     }
 
-    /// The results at one point: the definition, step by step.
+    /// What it asks of the hit, in the order of [`Input::ALL`].
+    pub fn inputs_used(&self) -> impl Iterator<Item = Input> + use<> {
+        let mut used = [false; Input::COUNT];
+        mark_inputs(&self.nodes, &mut used);
+        Input::ALL.into_iter().zip(used).filter(|(_, used)| *used).map(|(input, _)| input)
+    }
+
+    /// The most operations that one evaluation can take: every node counts 1, those of a loop once for every step
+    /// that it may make. Saturates.
+    #[must_use]
+    pub fn cost(&self) -> u64 {
+        cost(&self.nodes)
+    }
+
+    /// The results at one point: the definition that [`crate::Plan`] is measured by, plain and slow.
     #[must_use]
     pub fn evaluate(&self, tables: &NoiseTables, inputs: &[f64; Input::COUNT]) -> Vec<f64> {
-        let values = run(&self.nodes, tables, inputs, &[]);
-        self.outputs.iter().map(|id| values[id.0 as usize][0]).collect()
+        let values = evaluate(&self.nodes, tables, inputs, &[]);
+        self.outputs.iter().map(|id| values[id.index()][0]).collect()
     }
 }
 
-/// The results of every node.
-fn run(
+fn mark_inputs(nodes: &[Node], used: &mut [bool; Input::COUNT]) {
+    for node in nodes {
+        match node {
+            Node::Input(input) => used[*input as usize] = true,
+            Node::Block(Block::Loop(body), _) => mark_inputs(&body.nodes, used),
+            _ => {}
+        }
+    }
+}
+
+fn cost(nodes: &[Node]) -> u64 {
+    let each = nodes.iter().map(|node| match node {
+        Node::Block(Block::Loop(body), _) => cost(&body.nodes).saturating_mul(body.max.into()),
+        _ => 1,
+    });
+    each.fold(0, u64::saturating_add)
+}
+
+/// The values of all nodes: one each, several of a block.
+fn evaluate(
     nodes: &[Node],
     tables: &NoiseTables,
     inputs: &[f64; Input::COUNT],
@@ -44,47 +79,49 @@ fn run(
 ) -> Vec<Vec<f64>> {
     let mut values: Vec<Vec<f64>> = Vec::with_capacity(nodes.len());
     for node in nodes {
-        let value = |id: &NodeId| values[id.0 as usize][0];
-        let all = match node {
-            Node::Constant(c) => vec![*c],
+        let at = |id: &NodeId| values[id.index()][0];
+        let value = match node {
+            Node::Constant(v) => vec![*v],
             Node::Input(input) => vec![inputs[*input as usize]],
             Node::Argument(i) => vec![arguments[*i as usize]],
-            Node::Unary(f, a) => vec![f.apply(value(a))],
-            Node::Binary(f, a, b) => vec![f.apply(value(a), value(b))],
-            Node::Select(c, a, b) => vec![if value(c) != 0.0 { value(a) } else { value(b) }],
-            Node::Noise(kind, seed, p) => {
-                let p = [value(&p[0]), value(&p[1]), value(&p[2])];
-                vec![match kind {
-                    NoiseKind::Improved => improved_noise(*seed, p),
-                    NoiseKind::Classic => classic_noise(tables, *seed, p),
-                }]
+            Node::Unary(f, a) => vec![f.apply(at(a))],
+            Node::Binary(f, a, b) => vec![f.apply(at(a), at(b))],
+            Node::Select(condition, a, b) => vec![if at(condition) == 0.0 { at(b) } else { at(a) }],
+            Node::Noise(NoiseKind::Improved, seed, p) => vec![improved_noise(*seed, p.each_ref().map(at))],
+            Node::Noise(NoiseKind::Classic, seed, p) => {
+                vec![classic_noise(tables, *seed, p.each_ref().map(at))]
             }
-            Node::Block(block, arguments) => {
-                let arguments: Vec<f64> = arguments.iter().map(value).collect();
+            Node::Block(block, a) => {
+                let a: Vec<f64> = a.iter().map(at).collect();
                 match block {
-                    Block::Cells { seed } => {
-                        cells(*seed, [arguments[0], arguments[1], arguments[2]]).to_vec()
-                    }
-                    Block::Image(image) => image.sample(arguments[0], arguments[1]).to_vec(),
-                    Block::Loop(body) => run_loop(body, tables, inputs, &arguments),
+                    Block::Cells { seed } => cells(*seed, [a[0], a[1], a[2]]).to_vec(),
+                    Block::Image(image) => image.sample(a[0], a[1]).to_vec(),
+                    Block::Loop(body) => repeat(body, tables, inputs, a),
                 }
             }
-            Node::Result(block, i) => vec![values[block.0 as usize][usize::from(*i)]],
+            Node::Result(block, i) => vec![values[block.index()][usize::from(*i)]],
         };
-        values.push(all);
+        values.push(value);
     }
     values
 }
 
-fn run_loop(body: &Loop, tables: &NoiseTables, inputs: &[f64; Input::COUNT], arguments: &[f64]) -> Vec<f64> {
-    let (mut state, captured) = (arguments[..body.state].to_vec(), &arguments[body.state..]);
+/// The state after a loop; `arguments` are the initial state and what is captured.
+fn repeat(
+    body: &Loop,
+    tables: &NoiseTables,
+    inputs: &[f64; Input::COUNT],
+    mut arguments: Vec<f64>,
+) -> Vec<f64> {
     for _ in 0..body.max {
-        let all: Vec<f64> = state.iter().chain(captured).copied().collect();
-        let values = run(&body.nodes, tables, inputs, &all);
-        if values[body.until.0 as usize][0] != 0.0 {
+        let values = evaluate(&body.nodes, tables, inputs, &arguments);
+        if values[body.until.index()][0] != 0.0 {
             break;
         }
-        state = body.step.iter().map(|id| values[id.0 as usize][0]).collect();
+        for (state, step) in arguments.iter_mut().zip(&body.step) {
+            *state = values[step.index()][0];
+        }
     }
-    state
+    arguments.truncate(body.state);
+    arguments
 }

@@ -58,6 +58,13 @@ impl Input {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct NodeId(pub u32);
 
+impl NodeId {
+    /// As an index.
+    pub(crate) const fn index(self) -> usize {
+        self.0 as usize
+    }
+}
+
 /// Functions of one number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Unary {
@@ -124,7 +131,8 @@ pub enum Binary {
     And,
     /// a or b is true.
     Or,
-    /// A number in [0, 1) that depends on the bits of a (the seed) and b (the index), and looks random.
+    /// A number in [0, 1) that depends on a (the seed) and b (the index) alone and looks random:
+    /// [`crate::random`].
     Random,
 }
 
@@ -202,7 +210,8 @@ pub enum Node {
     Unary(Unary, NodeId),
     /// A function of two numbers.
     Binary(Binary, NodeId, NodeId),
-    /// The second where the first is true (not 0), else the third. Both are computed.
+    /// The second where the first is true (not 0), else the third. Both are computed, also all the way down a
+    /// chain of selections: what a branch costs is paid at every point.
     Select(NodeId, NodeId, NodeId),
     /// Noise at a point.
     Noise(NoiseKind, u64, [NodeId; 3]),
@@ -210,6 +219,34 @@ pub enum Node {
     Block(Block, Box<[NodeId]>),
     /// One result of a block.
     Result(NodeId, u8),
+}
+
+impl Node {
+    /// Hands out the nodes that this one is made of, in order.
+    pub(crate) fn for_each_operand(&self, mut f: impl FnMut(NodeId)) {
+        match self {
+            Self::Constant(_) | Self::Input(_) | Self::Argument(_) => {}
+            Self::Unary(_, a) | Self::Result(a, _) => f(*a),
+            Self::Binary(_, a, b) => [*a, *b].into_iter().for_each(f),
+            Self::Select(a, b, c) => [*a, *b, *c].into_iter().for_each(f),
+            Self::Noise(_, _, p) => p.iter().copied().for_each(f),
+            Self::Block(_, arguments) => arguments.iter().copied().for_each(f),
+        }
+    }
+
+    /// The same node of other operands.
+    pub(crate) fn map_operands(&self, mut f: impl FnMut(NodeId) -> NodeId) -> Self {
+        let mut node = self.clone();
+        match &mut node {
+            Self::Constant(_) | Self::Input(_) | Self::Argument(_) => {}
+            Self::Unary(_, a) | Self::Result(a, _) => *a = f(*a),
+            Self::Binary(_, a, b) => (*a, *b) = (f(*a), f(*b)),
+            Self::Select(a, b, c) => (*a, *b, *c) = (f(*a), f(*b), f(*c)),
+            Self::Noise(_, _, p) => p.iter_mut().for_each(|a| *a = f(*a)),
+            Self::Block(_, arguments) => arguments.iter_mut().for_each(|a| *a = f(*a)),
+        }
+        node
+    }
 }
 
 impl PartialEq for Node {

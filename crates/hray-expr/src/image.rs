@@ -35,39 +35,65 @@ impl Image {
     pub fn pixels(&self) -> &[[f32; 4]] {
         &self.pixels
     }
-}
 
-impl Image {
-    /// The colour and opacity at (u, v): u from the left, v from the bottom, 0 to 1 over the image and repeated beyond;
-    /// bilinear between the centres of pixels. 0 where u or v is not finite.
+    /// The colour at (u, v): u from the left, v from the bottom, both in [0, 1] over the image and repeated beyond.
+    /// Between the centres of pixels it is interpolated, first along the row. Not a number where u or v is not.
     #[must_use]
     pub fn sample(&self, u: f64, v: f64) -> [f64; 4] {
-        if !(u.is_finite() && v.is_finite()) {
-            return [0.0; 4];
+        let (left, right, across) = neighbours(u, self.width);
+        let (above, below, down) = neighbours(-v, self.height);
+        let pixel = |x: usize, y: usize| self.pixels[y * self.width as usize + x].map(f64::from);
+        let mut color = [0.0; 4];
+        let corners = [pixel(left, above), pixel(right, above), pixel(left, below), pixel(right, below)];
+        for (i, value) in color.iter_mut().enumerate() {
+            let upper = corners[0][i] + across * (corners[1][i] - corners[0][i]);
+            let lower = corners[2][i] + across * (corners[3][i] - corners[2][i]);
+            *value = upper + down * (lower - upper);
         }
-        let place = |t: f64, size: u32| {
-            let size = f64::from(size);
-            let x = (t - t.floor()) * size - 0.5;
-            let low = x.floor();
-            let wrap = |i: f64| {
-                if i < 0.0 {
-                    i + size
-                } else if i >= size {
-                    i - size
-                } else {
-                    i
-                }
-            };
-            (wrap(low) as usize, wrap(low + 1.0) as usize, x - low)
-        };
-        let (x0, x1, fx) = place(u, self.width);
-        let (y0, y1, fy) = place(1.0 - v, self.height);
-        let pixel = |x: usize, y: usize| self.pixels[y * self.width as usize + x];
-        let corners = [pixel(x0, y0), pixel(x1, y0), pixel(x0, y1), pixel(x1, y1)];
-        std::array::from_fn(|i| {
-            let [a, b, c, d] = corners.map(|corner| f64::from(corner[i]));
-            let (low, high) = (a + fx * (b - a), c + fx * (d - c));
-            low + fy * (high - low)
-        })
+        color
+    }
+}
+
+/// The two of `count` pixels whose centres are around a place in [0, 1] of their row, and how far it is on the way
+/// from the first to the second.
+fn neighbours(place: f64, count: u32) -> (usize, usize, f64) {
+    let at = (place - place.floor()) * f64::from(count) - 0.5;
+    let first = at.floor();
+    // From -1 to count - 1; a place that is not a number gives 0.
+    let index = (first as i64).rem_euclid(count.into());
+    (index as usize, ((index + 1) % i64::from(count)) as usize, at - first)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn quarters() -> Image {
+        let gray = |v: f32| [v, v, v, 1.0];
+        Image::new(2, 2, vec![gray(0.0), gray(1.0), gray(2.0), gray(3.0)]).unwrap()
+    }
+
+    #[test]
+    fn pixels_are_where_they_should_be() {
+        let image = quarters();
+        assert_eq!(image.sample(0.25, 0.75), [0.0, 0.0, 0.0, 1.0]);
+        assert_eq!(image.sample(0.75, 0.75)[0], 1.0);
+        assert_eq!(image.sample(0.25, 0.25)[0], 2.0);
+        assert_eq!(image.sample(0.75, -0.75)[0], 3.0);
+        assert_eq!(image.sample(0.5, 0.5)[0], 1.5);
+        assert_eq!(image.sample(7.0, 0.75)[0], 0.5);
+    }
+
+    #[test]
+    fn strange_places_are_defined() {
+        let image = quarters();
+        for v in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+            assert!(image.sample(v, 0.0)[0].is_nan());
+        }
+        for v in [1e300, -1e300, -1e-300, f64::MAX] {
+            assert!(image.sample(v, v)[0].is_finite());
+        }
+        assert_eq!(Image::new(1, 1, vec![[0.5; 4]]).unwrap().sample(0.3, 9.1), [0.5; 4]);
+        assert!(Image::new(0, 0, vec![]).is_none());
     }
 }

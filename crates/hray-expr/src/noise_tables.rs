@@ -1,5 +1,6 @@
 //! The tables behind the noise of 1985.
 
+use crate::apply::SplitMix64;
 use std::fmt;
 
 /// What gradient noise draws from: permutations of 0..=255 and 256 gradient vectors. Thesis §3.4, after
@@ -48,25 +49,12 @@ impl NoiseTables {
     /// operations that IEEE 754 rounds exactly are used, so every machine makes the same tables.
     #[must_use]
     pub fn generate(seed: u64) -> Self {
-        let mut state = seed;
-        let mut next = move || {
-            state = state.wrapping_add(0x9E37_79B9_7F4A_7C15);
-            let mut z = state;
-            z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-            z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-            z ^ (z >> 31)
-        };
-        let mut permutations = [[0u8; 256]; 3];
+        let mut words = SplitMix64(seed);
+        let mut permutations = [identity(); 3];
         for permutation in &mut permutations {
-            for (entry, value) in permutation.iter_mut().zip(0..=255u8) {
-                *entry = value;
-            }
-            for i in (1..256usize).rev() {
-                let j = ((next() >> 32) * (i as u64 + 1)) >> 32;
-                permutation.swap(i, j as usize);
-            }
+            words.shuffle(permutation);
         }
-        let mut coordinate = || (next() >> 11) as f64 / (1u64 << 52) as f64 - 1.0;
+        let mut coordinate = || (words.next() >> 11) as f64 / (1u64 << 52) as f64 - 1.0;
         let gradients = std::array::from_fn(|_| {
             loop {
                 let [x, y, z] = [coordinate(), coordinate(), coordinate()];
@@ -91,6 +79,31 @@ impl NoiseTables {
     pub const fn gradients(&self) -> &[[f64; 3]; 256] {
         &self.gradients
     }
+
+    /// The permutation of a seed: 0, 1 and 2 are those of the tables, any other is the first, shuffled as in
+    /// [`NoiseTables::generate`] by words from that seed.
+    #[must_use]
+    pub fn permutation(&self, seed: u64) -> [u8; 256] {
+        match seed {
+            0 => self.permutations[0],
+            1 => self.permutations[1],
+            2 => self.permutations[2],
+            _ => {
+                let mut permutation = self.permutations[0];
+                SplitMix64(seed).shuffle(&mut permutation);
+                permutation
+            }
+        }
+    }
+}
+
+/// 0, 1, 2 and so on to 255.
+fn identity() -> [u8; 256] {
+    let mut permutation = [0; 256];
+    for (entry, value) in permutation.iter_mut().zip(0..=255) {
+        *entry = value;
+    }
+    permutation
 }
 
 impl Default for NoiseTables {

@@ -1,6 +1,7 @@
 //! What can go wrong with a file, in words for whoever typed its name.
 
-use crate::{PictureFormat, Quoted};
+use crate::animation::describe_rate;
+use crate::{AnimationFormat, PictureFormat, Quoted};
 use std::fmt;
 use std::io;
 use std::path::PathBuf;
@@ -18,6 +19,25 @@ pub enum InputError {
     Directory {
         /// The path as it was given.
         path: PathBuf,
+    },
+    /// A folder is wanted, and the path leads to something else.
+    NoDirectory {
+        /// The path as it was given.
+        path: PathBuf,
+    },
+    /// A scene does not lie in the folder that it may read from.
+    OutsideRoot {
+        /// The scene's path as it was given.
+        path: PathBuf,
+        /// The folder.
+        root: PathBuf,
+    },
+    /// It is no image that can be read.
+    Image {
+        /// The path as it was given.
+        path: PathBuf,
+        /// What is wrong with it.
+        reason: String,
     },
     /// There is more to read than is accepted.
     TooLarge {
@@ -44,6 +64,22 @@ impl InputError {
             _ => Self::Io { path, source },
         }
     }
+
+    /// What is wrong, without the path, in words that follow "cannot be read: ".
+    #[must_use]
+    pub fn reason(&self) -> String {
+        match self {
+            Self::Missing { .. } => "there is no such file".to_owned(),
+            Self::Directory { .. } => "it is a directory".to_owned(),
+            Self::NoDirectory { .. } => "it is no directory".to_owned(),
+            Self::OutsideRoot { .. } => "it does not lie in the root folder".to_owned(),
+            Self::Image { reason, .. } => reason.clone(),
+            Self::TooLarge { limit, .. } => {
+                format!("it is longer than {}, the most that is read", Bytes(*limit))
+            }
+            Self::Io { source, .. } => format!("{}{}", Cause(source), advice(source)),
+        }
+    }
 }
 
 impl fmt::Display for InputError {
@@ -65,6 +101,18 @@ impl fmt::Display for InputError {
                     "cannot read {}: it is a directory; give the name of a file in it",
                     Named(path, "the standard input")
                 )
+            }
+            Self::NoDirectory { path } => {
+                write!(f, "{} is no directory; give the name of one", Named(path, "the standard input"))
+            }
+            Self::OutsideRoot { path, root } => write!(
+                f,
+                "the scene {} does not lie in the root folder {}; the root is the scene's own folder or one further up",
+                Quoted(path),
+                Quoted(root)
+            ),
+            Self::Image { path, reason } => {
+                write!(f, "cannot read {}: {reason}", Named(path, "the standard input"))
             }
             Self::TooLarge { path, limit } => write!(
                 f,
@@ -126,6 +174,26 @@ pub enum OutputError {
         /// Pixels down.
         height: u32,
     },
+    /// The format cannot hold frames of that size.
+    FrameSize {
+        /// The format.
+        format: AnimationFormat,
+        /// Pixels across.
+        width: u32,
+        /// Pixels down.
+        height: u32,
+        /// The most pixels in either direction.
+        longest: u32,
+    },
+    /// The format cannot show so many frames a second.
+    FrameRate {
+        /// The format.
+        format: AnimationFormat,
+        /// Frames a second.
+        fps: f64,
+        /// The most it can show.
+        fastest: f64,
+    },
     /// There is not enough memory for a format that needs the whole picture at once.
     Memory {
         /// The format.
@@ -170,6 +238,11 @@ impl fmt::Display for OutputError {
                 "a picture of {width} by {height} pixels is too large for the format {format}; \
                  png and ppm hold larger ones"
             ),
+            Self::FrameSize { format, width, height, longest } => write!(
+                f,
+                "frames of {width} by {height} pixels do not fit the format {format}; a side has 1 to {longest}"
+            ),
+            Self::FrameRate { format, fps, fastest } => describe_rate(f, *format, *fps, *fastest),
             Self::Memory { format, bytes } => write!(
                 f,
                 "the format {format} needs {} of memory for this picture, and there is less; \

@@ -1,7 +1,7 @@
-//! Everything that touches a file: scenes and noise tables in, pictures out.
+//! Everything that touches a file: scenes, images and noise tables in, pictures and animations out.
 //!
-//! Reading is bounded: [`read_source`] and [`read_noise_tables`] stop at a stated size whatever the file, the
-//! pipe or the device behind it goes on to deliver.
+//! Reading is bounded: [`read_source`], [`read_image`] and [`read_noise_tables`] stop at a stated size whatever the file,
+//! the pipe or the device behind it goes on to deliver. A [`Folder`] gives files inside of it and no others.
 //!
 //! Writing is split so that it can keep up with a parallel renderer. [`PictureFormat::encode`] is a pure
 //! function from a run of pixels to bytes and is called on the threads that rendered them; a
@@ -30,21 +30,29 @@
 //! [`PictureWriter`] that is dropped takes its temporary file with it. (A crash of the whole machine is not
 //! guarded against: nothing waits for the disk.)
 
+mod animation;
 mod destination;
 mod error;
+mod folder;
 mod format;
 mod noise_tables;
 mod output;
 mod picture_writer;
 mod quoted;
+mod read_image;
 mod same_file;
 mod source;
+mod text;
 
-pub use destination::Destination;
+pub use animation::{AnimationFormat, AnimationWriter, MAX_FPS, MIN_FPS};
+pub use destination::{Destination, create_folder};
 pub use error::{InputError, OutputError};
+pub use folder::{Folder, FolderError};
 pub use format::{PictureFormat, UnknownFormat};
 pub use noise_tables::{MAX_NOISE_TABLES_BYTES, TablesError, parse_noise_tables, read_noise_tables};
 pub use picture_writer::PictureWriter;
 pub use quoted::Quoted;
+pub use read_image::{MAX_IMAGE_BYTES, MAX_IMAGE_PIXELS, decode_image, read_image};
 pub use same_file::same_file;
 pub use source::{Input, MAX_SOURCE_BYTES, read_source, read_source_from};
+pub use text::write_text;

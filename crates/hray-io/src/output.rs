@@ -52,7 +52,8 @@ impl Output {
         })
     }
 
-    fn finish(self) -> io::Result<()> {
+    /// Writes what is buffered and moves the file to its place; where an earlier write failed, why.
+    pub(crate) fn finish(self) -> io::Result<()> {
         if self.failed {
             return Err(self.cause.unwrap_or_else(earlier));
         }

@@ -1,8 +1,10 @@
-//! The scene language of hray: from the bytes of a scene file to a description, or to diagnostics that say
+//! The scene languages of hray: from the bytes of a scene file to a description, or to diagnostics that say
 //! what is wrong with it.
 //!
 //! - [`decode`]: bytes to text, or one error.
+//! - [`Language`]: which language a text is in.
 //! - [`classic`]: the grammar of 2005, text to a [`Description`](hray_core::Description) or errors; and back.
+//! - [`hry`]: the language in which scenes are functions.
 //! - [`lint`]: warnings about a description that is legal but surely meant otherwise.
 //! - [`diagnostic`]: errors and warnings as plain data, and their rendering as text.
 //!
@@ -27,7 +29,9 @@
 
 pub mod classic;
 pub mod decode;
-
 pub mod diagnostic;
 pub mod hry;
+mod language;
 pub mod lint;
+
+pub use language::Language;

@@ -1,52 +1,174 @@
 //! A scene file: its text, what it describes, and what there is to say about it.
 
-use crate::{Description, Diagnostic, Error, Input, InputError, LintLevels, LoadError};
-use hray_lang::{classic, decode, diagnostic, lint};
+use crate::assets::FolderAssets;
+use crate::{Description, Diagnostic, Error, Findings, Input, InputError, Limits, LintLevels, LoadError};
+use hray_lang::hry::eval::Evaluator;
+use hray_lang::hry::{Program, Sources, types};
+use hray_lang::{Language, classic, decode, diagnostic, lint};
 use std::borrow::Cow;
-use std::path::Path;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+/// How to load a scene.
+#[derive(Clone, Debug, Default)]
+pub struct LoadOptions {
+    /// The level of every warning.
+    pub levels: LintLevels,
+    /// The folder whose files an hry scene may read, and no others; the scene lies in it. The scene's own folder where
+    /// not given; a scene that is in no file can then read nothing.
+    pub root: Option<PathBuf>,
+    /// Definitions of an hry scene to replace: names, and expressions as they would be written in the scene.
+    pub set: Vec<(String, String)>,
+    /// The moment to show, in seconds, of a scene that is a function of the time.
+    pub time: f64,
+    /// How much the evaluation of an hry scene may take.
+    pub limits: Limits,
+}
 
 /// A scene as it was read, with its diagnostics.
 #[derive(Clone, Debug)]
 pub struct SceneFile {
-    name: String,
-    text: String,
+    language: Language,
+    sources: Sources,
     description: Option<Description>,
     diagnostics: Vec<Diagnostic>,
+    animated: bool,
+    /// What an hry scene without errors is evaluated from.
+    checked: Option<Arc<CheckedScene>>,
+}
+
+/// An hry scene that can be evaluated.
+#[derive(Debug)]
+struct CheckedScene {
+    program: Program,
+    assets: FolderAssets,
+    options: LoadOptions,
+    /// What the checker warned of.
+    warnings: Vec<Diagnostic>,
 }
 
 impl SceneFile {
-    /// Reads a scene.
+    /// Reads a scene, and what it imports.
     ///
     /// # Errors
-    /// [`InputError`] where it cannot be read. What is wrong with its text is in the diagnostics.
-    pub fn read(input: &Input, levels: &LintLevels) -> Result<Self, InputError> {
-        Ok(Self::parse(&input.name(), hray_io::read_source(input)?, levels))
+    /// [`InputError`] where it cannot be read, or does not lie in the root folder that was asked for. What is wrong with
+    /// its text is in the diagnostics.
+    pub fn read(input: &Input, options: &LoadOptions) -> Result<Self, InputError> {
+        let bytes = hray_io::read_source(input)?;
+        let (assets, path) = FolderAssets::of(input, options.root.as_deref())?;
+        Ok(Self::understand(&input.name(), &path, bytes, assets, options))
     }
 
     /// Makes a scene of bytes, which are called `name` in diagnostics.
     #[must_use]
     pub fn parse(name: &str, bytes: Vec<u8>, levels: &LintLevels) -> Self {
+        let options = LoadOptions { levels: levels.clone(), ..LoadOptions::default() };
+        Self::understand(name, name, bytes, FolderAssets::nothing(), &options)
+    }
+
+    /// Makes a scene of bytes, which are called `name` in diagnostics, and reads what they import from the root folder
+    /// of the options, as if the scene lay in that.
+    ///
+    /// # Errors
+    /// [`InputError`] where there is no such folder.
+    pub fn parse_with(name: &str, bytes: Vec<u8>, options: &LoadOptions) -> Result<Self, InputError> {
+        let (assets, path) = FolderAssets::without_file(options.root.as_deref())?;
+        Ok(Self::understand(name, &path, bytes, assets, options))
+    }
+
+    fn understand(
+        name: &str,
+        path: &str,
+        bytes: Vec<u8>,
+        assets: FolderAssets,
+        options: &LoadOptions,
+    ) -> Self {
         let (text, unreadable) = match decode::decode(&bytes) {
             decode::Decoded { text: Cow::Owned(text), error } => (text, error),
             decode::Decoded { text: Cow::Borrowed(_), error } => {
                 (String::from_utf8(bytes).unwrap_or_default(), error)
             }
         };
-        let (description, diagnostics) = match unreadable {
-            Some(error) => (None, vec![error]),
-            None => Self::understand(&text, levels),
-        };
-        Self { name: name.to_owned(), text, description, diagnostics }
+        let language = Language::of(&text);
+        match (unreadable, language) {
+            (Some(error), _) => Self::of_one_text(language, name, text, None, vec![error]),
+            (None, Language::Classic) => Self::classic(name, text, options),
+            (None, Language::Hry) => Self::hry(name, path, text.into(), assets, options),
+        }
     }
 
-    fn understand(text: &str, levels: &LintLevels) -> (Option<Description>, Vec<Diagnostic>) {
-        let parsed = classic::parse(text);
+    fn of_one_text(
+        language: Language,
+        name: &str,
+        text: String,
+        description: Option<Description>,
+        diagnostics: Vec<Diagnostic>,
+    ) -> Self {
+        let mut sources = Sources::default();
+        sources.add(name.to_owned(), text.into());
+        Self { language, sources, description, diagnostics, animated: false, checked: None }
+    }
+
+    fn classic(name: &str, text: String, options: &LoadOptions) -> Self {
+        let parsed = classic::parse(&text);
         let mut diagnostics = parsed.diagnostics;
         if let Some(description) = &parsed.description {
-            diagnostics.extend(lint::check(text, description, &parsed.spans, levels));
+            diagnostics.extend(lint::check(&text, description, &parsed.spans, &options.levels));
         }
+        diagnostics.extend(options.set.first().map(|(name, _)| nothing_to_set(name)));
         let denied = diagnostics.iter().any(Diagnostic::is_error);
-        (parsed.description.filter(|_| !denied), diagnostics)
+        let description = parsed.description.filter(|_| !denied);
+        Self::of_one_text(Language::Classic, name, text, description, diagnostics)
+    }
+
+    fn hry(name: &str, path: &str, text: Arc<str>, assets: FolderAssets, options: &LoadOptions) -> Self {
+        let mut diagnostics = Vec::new();
+        let program = Program::load(name, path, text, &options.set, &assets, &mut diagnostics);
+        types::check(&program, &mut diagnostics);
+        lint::apply(&options.levels, &mut diagnostics);
+        let mut file = Self {
+            language: Language::Hry,
+            sources: program.sources.clone(),
+            description: None,
+            diagnostics: diagnostics.clone(),
+            animated: false,
+            checked: None,
+        };
+        if file.errors() > 0 {
+            return file;
+        }
+        let checked =
+            Arc::new(CheckedScene { program, assets, options: options.clone(), warnings: diagnostics });
+        file.checked = Some(checked);
+        file.at(options.time)
+    }
+
+    /// The scene at another moment, in seconds, without reading it again. For many moments use [`SceneFile::moments`].
+    #[must_use]
+    pub fn at(&self, time: f64) -> Self {
+        self.moments().at(time)
+    }
+
+    /// The scene at one moment after another. What does not depend on the time is worked out once.
+    #[must_use]
+    pub fn moments(&self) -> Moments<'_> {
+        let evaluator = self
+            .checked
+            .as_deref()
+            .map(|checked| Evaluator::new(&checked.program, &checked.assets, &checked.options.limits));
+        Moments { file: self, evaluator }
+    }
+
+    /// The language it is written in.
+    #[must_use]
+    pub const fn language(&self) -> Language {
+        self.language
+    }
+
+    /// Whether the scene is a function of the time, so that its moments can differ.
+    #[must_use]
+    pub const fn is_animated(&self) -> bool {
+        self.animated
     }
 
     /// What the scene file describes; none where it has errors.
@@ -55,10 +177,16 @@ impl SceneFile {
         self.description.as_ref()
     }
 
-    /// Its errors and warnings.
+    /// Its errors and warnings. Their spans are offsets into [`SceneFile::sources`].
     #[must_use]
     pub fn diagnostics(&self) -> &[Diagnostic] {
         &self.diagnostics
+    }
+
+    /// The texts that it consists of: the scene itself first, then what it imports and what was set.
+    #[must_use]
+    pub const fn sources(&self) -> &Sources {
+        &self.sources
     }
 
     /// How many of the diagnostics are errors.
@@ -77,7 +205,13 @@ impl SceneFile {
     /// none. `color` adds the colours of a terminal.
     #[must_use]
     pub fn report(&self, color: bool) -> String {
-        diagnostic::render(&self.diagnostics, &self.name, &self.text, color)
+        diagnostic::render_sources(&self.diagnostics, &self.sources, color)
+    }
+
+    /// The diagnostics for programs, with lines and columns.
+    #[must_use]
+    pub fn findings(&self) -> Findings {
+        Findings::of(&self.diagnostics, &self.sources)
     }
 
     /// What the scene file describes, or itself as an error.
@@ -89,11 +223,42 @@ impl SceneFile {
     }
 }
 
+/// A scene at one moment after another.
+#[derive(Debug)]
+pub struct Moments<'a> {
+    file: &'a SceneFile,
+    evaluator: Option<Evaluator<'a>>,
+}
+
+impl Moments<'_> {
+    /// The scene at a moment, in seconds. A scene that is no function of the time is always the same, and so is one with
+    /// errors that come before evaluation.
+    #[must_use]
+    pub fn at(&mut self, time: f64) -> SceneFile {
+        let mut file = self.file.clone();
+        if let (Some(evaluator), Some(checked)) = (&mut self.evaluator, self.file.checked.as_deref()) {
+            let mut evaluated = evaluator.at(time);
+            lint::apply(&checked.options.levels, &mut evaluated.diagnostics);
+            file.diagnostics.clone_from(&checked.warnings);
+            file.diagnostics.append(&mut evaluated.diagnostics);
+            file.description = evaluated.description.filter(|_| file.errors() == 0);
+            file.animated = evaluated.animated;
+        }
+        file
+    }
+}
+
+fn nothing_to_set(name: &str) -> Diagnostic {
+    let message = format!("a classic scene has no definitions, so `{name}` cannot be set");
+    Diagnostic::error("unknown-override", message, diagnostic::Span::at(0), "")
+        .with_help("`hray convert` makes an hry scene of a classic one")
+}
+
 /// Reads the scene in a file. Warnings are passed over in silence; [`SceneFile::read`] has them.
 ///
 /// # Errors
 /// [`Error::Load`] where the file cannot be read, or has errors.
 pub fn load(path: impl AsRef<Path>) -> Result<Description, Error> {
     let input = Input::File(path.as_ref().to_owned());
-    Ok(SceneFile::read(&input, &LintLevels::default())?.into_description()?)
+    Ok(SceneFile::read(&input, &LoadOptions::default())?.into_description()?)
 }

@@ -1,14 +1,18 @@
 //! What the language has to say about a source text, as plain data, and the rendering of it as text.
 //!
 //! A [`Diagnostic`] knows nothing of terminals: an editor can show it in its own way. [`render`] lays it out
-//! with the source line, the span underlined, and the suggestion spelt out.
+//! with the source line, the span underlined, and the suggestion spelt out, [`render_sources`] over several files;
+//! [`Places`] gives lines and columns to programs.
 
 mod excerpt;
+mod files;
 mod locate;
+mod places;
 mod render;
 mod span;
 
-pub use render::render;
+pub use places::{Place, Places, Point};
+pub use render::{render, render_sources};
 pub use span::Span;
 
 /// How bad it is.
@@ -130,6 +134,12 @@ impl Diagnostic {
     #[must_use]
     pub fn is_error(&self) -> bool {
         self.severity == Severity::Error
+    }
+
+    /// Whether it is about a file as a whole, such as one that lacks something: it points at nothing.
+    #[must_use]
+    pub fn is_about_the_file(&self) -> bool {
+        self.primary.span.is_empty() && self.primary.text.is_empty() && self.secondary.is_empty()
     }
 
     /// Every span it mentions.

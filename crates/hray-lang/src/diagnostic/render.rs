@@ -1,9 +1,10 @@
 //! Diagnostics as text.
 
 use super::excerpt::{Excerpt, excerpts};
-use super::locate::Locations;
+use super::files::{File, Files};
 use super::{Diagnostic, Severity, Span, Suggestion};
-use annotate_snippets::{Annotation, AnnotationKind, Level, Patch, Renderer, Snippet};
+use crate::hry::Sources;
+use annotate_snippets::{Annotation, AnnotationKind, Level, Origin, Patch, Renderer, Snippet};
 use std::fmt::Write as _;
 
 /// The longest replacement that is spelt out as a patch of the source.
@@ -16,12 +17,20 @@ const LONGEST_PATCH: usize = 200;
 /// size only the lines that carry a label are copied, and of long lines only the surroundings of the labels.
 #[must_use]
 pub fn render(diagnostics: &[Diagnostic], file_name: &str, source: &str, color: bool) -> String {
-    let offsets =
-        diagnostics.iter().flat_map(Diagnostic::spans).map(|span| fit(source, span).start).collect();
+    write(diagnostics, &Files::one(file_name, source, diagnostics), color)
+}
+
+/// The same of diagnostics whose spans are offsets into the files of a program: each label is shown in its own file,
+/// that of the primary one first.
+#[must_use]
+pub fn render_sources(diagnostics: &[Diagnostic], sources: &Sources, color: bool) -> String {
+    write(diagnostics, &Files::of(sources, diagnostics), color)
+}
+
+fn write(diagnostics: &[Diagnostic], files: &Files<'_>, color: bool) -> String {
     // The excerpts are cut to size already, so no line is to be cut again.
     let renderer = if color { Renderer::styled() } else { Renderer::plain() }.term_width(10_000);
-    let page =
-        Page { source, file_name: &clean(file_name), locations: Locations::new(source, offsets), renderer };
+    let page = Page { files, renderer };
     let mut text = String::new();
     for diagnostic in diagnostics {
         text.push_str(&page.render(diagnostic));
@@ -34,12 +43,16 @@ pub fn render(diagnostics: &[Diagnostic], file_name: &str, source: &str, color: 
     text
 }
 
-/// What all diagnostics of a source share.
+/// What all diagnostics share.
 struct Page<'a> {
-    source: &'a str,
-    file_name: &'a str,
-    locations: Locations,
+    files: &'a Files<'a>,
     renderer: Renderer,
+}
+
+/// An excerpt of one of the files. Its labels are numbered as in the diagnostic.
+struct Shown<'a> {
+    file: &'a File<'a>,
+    excerpt: Excerpt,
 }
 
 impl Page<'_> {
@@ -49,27 +62,28 @@ impl Page<'_> {
             Severity::Warning => Level::WARNING,
         };
         let labels: Vec<_> = std::iter::once(&diagnostic.primary).chain(&diagnostic.secondary).collect();
-        let spans: Vec<Span> = labels.iter().map(|label| fit(self.source, label.span)).collect();
         let texts: Vec<String> = labels.iter().map(|label| clean(&label.text)).collect();
-        let mut excerpts = excerpts(self.source, &self.locations, &spans);
-        // The excerpt of the primary label goes first: it gives the diagnostic its place.
-        excerpts.sort_by_key(|excerpt| !excerpt.labels.iter().any(|(index, _)| *index == 0));
+        let spans: Vec<(usize, Span)> = labels.iter().map(|label| self.files.local(label.span)).collect();
+        let shown = if diagnostic.is_about_the_file() { Vec::new() } else { self.shown(&spans) };
 
         let mut group = level.primary_title(clean(&diagnostic.message)).id(diagnostic.code).elements(
-            excerpts.iter().map(|excerpt| {
+            shown.iter().map(|Shown { file, excerpt }| {
                 let annotations = excerpt.labels.iter().map(|label| annotation(label, &texts));
                 Snippet::source(&excerpt.text)
                     .line_start(excerpt.line)
-                    .path(self.file_name)
+                    .path(&file.name)
                     .annotations(annotations)
             }),
         );
+        if let (true, Some(file)) = (shown.is_empty(), spans.first().and_then(|(file, _)| self.files.get(*file))) {
+            group = group.element(Origin::path(&file.name));
+        }
         group = group.elements(diagnostic.notes.iter().map(|note| Level::NOTE.message(clean_lines(note))));
         group = group.elements(diagnostic.help.iter().map(|help| Level::HELP.message(clean_lines(help))));
         let patched = diagnostic.suggestion.as_ref().map(|suggestion| self.patched(suggestion));
         let text = match (&patched, &diagnostic.suggestion) {
-            (Some(Some((excerpt, patch))), Some(suggestion)) => {
-                let snippet = Snippet::source(&excerpt.text).line_start(excerpt.line).path(self.file_name);
+            (Some(Some((file, excerpt, patch))), Some(suggestion)) => {
+                let snippet = Snippet::source(&excerpt.text).line_start(excerpt.line).path(&file.name);
                 let title = Level::HELP.secondary_title(clean(&suggestion.text));
                 self.renderer.render(&[group, title.element(snippet.patch(patch.clone()))])
             }
@@ -79,45 +93,72 @@ impl Page<'_> {
             }
             _ => self.renderer.render(&[group]),
         };
-        self.with_true_columns(text, &excerpts, &spans)
+        with_true_columns(text, &shown, &spans)
+    }
+
+    /// The excerpts that show spans (each with the number of its file), file by file; the excerpt of the first span
+    /// goes first: it gives the diagnostic its place.
+    fn shown(&self, spans: &[(usize, Span)]) -> Vec<Shown<'_>> {
+        let mut order: Vec<usize> = Vec::new();
+        for (file, _) in spans {
+            if !order.contains(file) {
+                order.push(*file);
+            }
+        }
+        let mut shown = Vec::new();
+        for number in order {
+            let Some(file) = self.files.get(number) else { continue };
+            let mine = || spans.iter().enumerate().filter(|(_, (of, _))| *of == number);
+            let numbers: Vec<usize> = mine().map(|(index, _)| index).collect();
+            let here: Vec<Span> = mine().map(|(_, (_, span))| *span).collect();
+            let mut excerpts = excerpts(file.text, &file.locations, &here);
+            for (index, _) in excerpts.iter_mut().flat_map(|excerpt| &mut excerpt.labels) {
+                *index = numbers.get(*index).copied().unwrap_or(usize::MAX);
+            }
+            excerpts.sort_by_key(|excerpt| !excerpt.labels.iter().any(|(index, _)| *index == 0));
+            shown.extend(excerpts.into_iter().map(|excerpt| Shown { file, excerpt }));
+        }
+        shown
     }
 
     /// The excerpt that shows a suggestion, and the suggestion as a change of that excerpt. None where it
     /// spans lines or is long: then its words have to do.
-    fn patched<'s>(&self, suggestion: &'s Suggestion) -> Option<(Excerpt, Patch<'s>)> {
-        let span = fit(self.source, suggestion.span);
-        let one_line = span == suggestion.span && !suggestion.replacement.contains(['\n', '\r']);
+    fn patched<'s>(&self, suggestion: &'s Suggestion) -> Option<(&File<'_>, Excerpt, Patch<'s>)> {
+        let (number, span) = self.files.local(suggestion.span);
+        let file = self.files.get(number)?;
+        let fits = span.start + file.base == suggestion.span.start && span.end + file.base == suggestion.span.end;
+        let one_line = fits && !suggestion.replacement.contains(['\n', '\r']);
         if !one_line || suggestion.replacement.len() > LONGEST_PATCH {
             return None;
         }
-        let excerpt = excerpts(self.source, &self.locations, &[span]).pop()?;
+        let excerpt = excerpts(file.text, &file.locations, &[span]).pop()?;
         let range = excerpt.labels.first()?.1.clone();
         let whole = range.len() == span.end - span.start;
-        whole.then(|| (excerpt, Patch::new(range, clean(&suggestion.replacement))))
+        whole.then(|| (file, excerpt, Patch::new(range, clean(&suggestion.replacement))))
     }
+}
 
-    /// The layout derives columns from the excerpt; where that is only a part of the line, this puts the
-    /// column in the file in its stead.
-    fn with_true_columns(&self, mut text: String, excerpts: &[Excerpt], spans: &[Span]) -> String {
-        let mut from = text.find('\n').unwrap_or(0);
-        for excerpt in excerpts {
-            // The label that the layout takes: the primary one where there is one, else the first.
-            let primary = excerpt.labels.iter().find(|(index, _)| *index == 0);
-            let Some((index, range)) = primary.or(excerpt.labels.first()) else { continue };
-            let place = self.locations.get(spans.get(*index).map_or(0, |span| span.start));
-            let before = excerpt.text.get(..range.start).unwrap_or_default();
-            let shown = before.chars().rev().take_while(|c| *c != '\n').count() + 1;
-            let printed = format!("{}:{}:{shown}", self.file_name, place.line);
-            let Some(at) = text.get(from..).and_then(|rest| rest.find(&printed)).map(|at| at + from) else {
-                continue;
-            };
-            let mut truth = String::new();
-            let _ = write!(truth, "{}:{}:{}", self.file_name, place.line, place.column);
-            text.replace_range(at..at + printed.len(), &truth);
-            from = at + truth.len();
-        }
-        text
+/// The layout derives columns from the excerpt; where that is only a part of the line, this puts the
+/// column in the file in its stead.
+fn with_true_columns(mut text: String, shown: &[Shown<'_>], spans: &[(usize, Span)]) -> String {
+    let mut from = text.find('\n').unwrap_or(0);
+    for Shown { file, excerpt } in shown {
+        // The label that the layout takes: the primary one where there is one, else the first.
+        let primary = excerpt.labels.iter().find(|(index, _)| *index == 0);
+        let Some((index, range)) = primary.or(excerpt.labels.first()) else { continue };
+        let place = file.locations.get(spans.get(*index).map_or(0, |(_, span)| span.start));
+        let before = excerpt.text.get(..range.start).unwrap_or_default();
+        let column = before.chars().rev().take_while(|c| *c != '\n').count() + 1;
+        let printed = format!("{}:{}:{column}", file.name, place.line);
+        let Some(at) = text.get(from..).and_then(|rest| rest.find(&printed)).map(|at| at + from) else {
+            continue;
+        };
+        let mut truth = String::new();
+        let _ = write!(truth, "{}:{}:{}", file.name, place.line, place.column);
+        text.replace_range(at..at + printed.len(), &truth);
+        from = at + truth.len();
     }
+    text
 }
 
 fn annotation<'t>((index, range): &(usize, std::ops::Range<usize>), texts: &'t [String]) -> Annotation<'t> {
@@ -126,24 +167,9 @@ fn annotation<'t>((index, range): &(usize, std::ops::Range<usize>), texts: &'t [
     kind.span(range.clone()).label(label)
 }
 
-/// The part of a span that lies in the source, on character boundaries and on its first line.
-fn fit(source: &str, span: Span) -> Span {
-    let text_start = if source.starts_with('\u{feff}') { '\u{feff}'.len_utf8() } else { 0 };
-    let start = source.floor_char_boundary(span.start).max(text_start);
-    let end = source.ceil_char_boundary(span.end).max(start);
-    // A longer underline is not shown, so there is no need to look for its end further on.
-    let near = source.ceil_char_boundary(end.min(start + 1000));
-    let text = source.get(start..near).unwrap_or_default();
-    let end = text.find('\n').map_or(end, |length| start + length);
-    if source.get(start..end).is_some_and(|text| text.len() > 1 && text.ends_with('\r')) {
-        return Span::new(start, end - 1);
-    }
-    Span::new(start, end)
-}
-
 /// Text for one line of a terminal: what could move the cursor, change colours or turn the direction of
 /// writing is replaced.
-fn clean(text: &str) -> String {
+pub(super) fn clean(text: &str) -> String {
     text.chars().map(|c| if is_command(c) { '\u{fffd}' } else { c }).collect()
 }
 

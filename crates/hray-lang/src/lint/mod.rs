@@ -1,7 +1,8 @@
 //! Warnings about what is legal but was surely meant otherwise.
 //!
-//! Every lint has a code; [`LINTS`] lists them all. They look at an accepted scene, and only at its values:
-//! a sensible scene gives none. Each can be allowed or denied by its code ([`LintLevels`]).
+//! Every lint has a code; [`LINTS`] lists them all. Those of classic scenes are found here ([`check`]): they look at an
+//! accepted scene, and only at its values. Those of hry scenes are found where these are checked and evaluated. A
+//! sensible scene gives none. Each can be allowed or denied by its code ([`LintLevels`]).
 //!
 //! Time is linear in the number of objects: the lints that compare objects compare each with a bounded
 //! number of candidates ([`MOST_CANDIDATES`]), so of a huge scene they may miss something.
@@ -17,7 +18,7 @@ pub use levels::{ALL_LINTS, Level, LintLevels, UnknownLint};
 pub use sink::MOST_PER_LINT;
 
 use crate::classic::Spans;
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{Diagnostic, Severity};
 use hray_core::Description;
 
 /// A lint.
@@ -33,8 +34,41 @@ const fn lint(code: &'static str, explanation: &'static str) -> Lint {
     Lint { code, explanation }
 }
 
-/// All lints.
-pub const LINTS: &[Lint] = &[
+/// All lints: those of classic scenes, then those of hry.
+pub const LINTS: &[Lint] = &all::<{ CLASSIC_LINTS.len() + TYPES.len() + VALUES.len() }>();
+
+/// The lints of what the checker of hry finds in a text.
+const TYPES: &[Lint] = crate::hry::types::LINTS;
+
+/// The lints of what evaluation finds in values.
+const VALUES: &[Lint] = &[lint(
+    "unusual-value",
+    "A field has a value that is worked out, and lies outside of what makes sense for it, such as a reflection above 1.",
+)];
+
+const fn all<const N: usize>() -> [Lint; N] {
+    let mut all = [lint("", ""); N];
+    let tables = [CLASSIC_LINTS, TYPES, VALUES];
+    let (mut table, mut place) = (0, 0);
+    while table < tables.len() {
+        let mut i = 0;
+        while i < tables[table].len() {
+            all[place] = tables[table][i];
+            (i, place) = (i + 1, place + 1);
+        }
+        table += 1;
+    }
+    all
+}
+
+/// The lints of hry scenes, by the parts of the language that find them.
+#[must_use]
+pub fn hry_lints() -> &'static [Lint] {
+    LINTS.get(CLASSIC_LINTS.len()..).unwrap_or_default()
+}
+
+/// The lints of classic scenes.
+pub const CLASSIC_LINTS: &[Lint] = &[
     lint("black-picture", "A recursion depth of -1 traces no ray at all: the picture is black."),
     lint(
         "component-range",
@@ -103,13 +137,32 @@ pub fn check(source: &str, description: &Description, spans: &Spans, levels: &Li
     sink.finish()
 }
 
+/// Gives the warnings among the findings about an hry scene their levels: those at [`Level::Allow`] go, those at
+/// [`Level::Deny`] become errors.
+pub fn apply(levels: &LintLevels, diagnostics: &mut Vec<Diagnostic>) {
+    diagnostics.retain_mut(|diagnostic| {
+        if diagnostic.is_error() || !LINTS.iter().any(|lint| lint.code == diagnostic.code) {
+            return true;
+        }
+        let level = levels.get(diagnostic.code);
+        if level == Level::Deny {
+            diagnostic.severity = Severity::Error;
+        }
+        level != Level::Allow
+    });
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
     fn codes_are_sorted_distinct_and_in_kebab_case() {
-        assert!(LINTS.is_sorted_by(|a, b| a.code < b.code));
+        assert!(CLASSIC_LINTS.is_sorted_by(|a, b| a.code < b.code));
+        let mut codes: Vec<_> = LINTS.iter().map(|lint| lint.code).collect();
+        codes.sort_unstable();
+        codes.dedup();
+        assert_eq!(codes.len(), LINTS.len());
         let kebab = |c: char| c.is_ascii_lowercase() || c == '-';
         assert!(LINTS.iter().all(|lint| lint.code.chars().all(kebab) && lint.code != ALL_LINTS));
     }

@@ -4,7 +4,7 @@
 //! from the lines that look like definitions, reports those, and leaves the parser a text whose brackets are in order: a
 //! bracket that is not closed gets a place where reading has to stop.
 
-use super::complaint::brackets as complaint;
+use super::complaint::brackets::{self as complaint, After};
 use super::kind::SyntaxKind;
 use super::lexer::Token;
 use super::parser::MOST_ERRORS;
@@ -23,18 +23,18 @@ pub(crate) struct Brackets {
 const MOST_SEARCHES: usize = 50;
 
 /// Checks the brackets. Closing brackets without a partner are taken out of `tokens`, those of the wrong kind replaced.
-pub(crate) fn check(text: &str, base: usize, tokens: &mut Vec<Token>) -> Brackets {
+pub(crate) fn check(base: usize, tokens: &mut Vec<Token>) -> Brackets {
     if are_balanced(tokens) {
         return Brackets::default();
     }
     let mut check =
-        Check { text, base, open: Vec::new(), limit: 0, searches: 0, result: Brackets::default() };
+        Check { base, open: Vec::new(), waiting: [0; 3], limit: 0, searches: 0, result: Brackets::default() };
     let mut stray = Vec::new();
     for number in 0..tokens.len() {
         let Some(token) = tokens.get(number).copied() else { break };
         check.line(tokens, number, token);
         if token.kind.is_open() {
-            check.open.push(number);
+            check.push(number, token.kind.closing());
         } else if token.kind.is_close() {
             match check.close(tokens, number, token) {
                 Closing::Partner => {}
@@ -80,18 +80,28 @@ enum Closing {
     Instead(SyntaxKind),
 }
 
-struct Check<'t> {
-    text: &'t str,
+/// The place of a kind of closing bracket in a table.
+const fn slot(closing: SyntaxKind) -> usize {
+    match closing {
+        SyntaxKind::CloseParen => 0,
+        SyntaxKind::CloseBracket => 1,
+        _ => 2,
+    }
+}
+
+struct Check {
     base: usize,
-    /// The brackets that are open here.
-    open: Vec<usize>,
+    /// The brackets that are open here, each with what closes it.
+    open: Vec<(usize, SyntaxKind)>,
+    /// How many of those each kind closes.
+    waiting: [usize; 3],
     /// The column of the definition at the top that this is in, plus one.
     limit: u32,
     searches: usize,
     result: Brackets,
 }
 
-impl Check<'_> {
+impl Check {
     fn span(&self, token: Token) -> Span {
         Span::new(self.base + token.start as usize, self.base + token.end as usize)
     }
@@ -100,6 +110,21 @@ impl Check<'_> {
         if self.result.errors.len() < MOST_ERRORS {
             self.result.errors.push(error);
         }
+    }
+
+    fn push(&mut self, number: usize, closing: SyntaxKind) {
+        self.open.push((number, closing));
+        if let Some(waiting) = self.waiting.get_mut(slot(closing)) {
+            *waiting += 1;
+        }
+    }
+
+    fn pop(&mut self) -> Option<usize> {
+        let (number, closing) = self.open.pop()?;
+        if let Some(waiting) = self.waiting.get_mut(slot(closing)) {
+            *waiting -= 1;
+        }
+        Some(number)
     }
 
     /// Closes all brackets at a line that looks like the next definition.
@@ -121,35 +146,66 @@ impl Check<'_> {
 
     /// The brackets from the `from`th open one on are not closed before token `wall`.
     fn unclosed_from(&mut self, tokens: &[Token], from: usize, wall: usize) {
-        for open in self.open.split_off(from.min(self.open.len())) {
+        while self.open.len() > from {
+            let Some(open) = self.pop() else { return };
             let Some(token) = tokens.get(open).copied() else { continue };
-            let last = wall.checked_sub(1).and_then(|last| tokens.get(last)).copied().unwrap_or(token);
-            let next = tokens.get(wall).copied();
+            let (wall, after) = match self.next_field(tokens, open, wall) {
+                Some(field) => (field, After::Field),
+                None if tokens.get(wall).is_some_and(|next| next.kind.is_close()) => (wall, After::Closing),
+                None => (wall, After::Definition),
+            };
             self.result.unclosed.insert(open as u32, wall as u32);
-            self.report(complaint::unclosed(
-                token.kind,
-                self.span(token),
-                self.base + last.end as usize,
-                next.map(|next| (next.kind.is_close(), self.span(next))),
-                self.text,
-                self.base,
-            ));
+            let mut last = wall.saturating_sub(1);
+            let is_one_line = after == After::Field || token.kind != SyntaxKind::OpenBrace;
+            if is_one_line
+                && last > open
+                && tokens.get(last).is_some_and(|last| last.kind == SyntaxKind::Comma)
+            {
+                last -= 1;
+            }
+            let end = self.base + tokens.get(last).map_or(0, |last| last.end as usize);
+            let next = tokens.get(wall).map(|next| (after, self.span(*next)));
+            self.report(complaint::unclosed(token.kind, self.span(token), end, next));
         }
     }
 
+    /// What looks like a field, `name =`, in round or square brackets, where there can be none.
+    fn next_field(&mut self, tokens: &[Token], open: usize, wall: usize) -> Option<usize> {
+        let opener = tokens.get(open)?;
+        self.searches += 1;
+        if opener.kind == SyntaxKind::OpenBrace || self.searches > MOST_SEARCHES {
+            return None;
+        }
+        let mut depth = 0_usize;
+        for at in open + 1..wall {
+            let token = tokens.get(at)?;
+            if token.kind.is_open() {
+                depth += 1;
+            } else if token.kind.is_close() {
+                depth = depth.checked_sub(1)?;
+            }
+            let is_name = depth == 0 && token.kind == SyntaxKind::Name;
+            if is_name && tokens.get(at + 1).is_some_and(|next| next.kind == SyntaxKind::Define) {
+                let follows_comma = tokens.get(at - 1).is_some_and(|before| before.kind == SyntaxKind::Comma);
+                return (token.starts_line || follows_comma).then_some(at);
+            }
+        }
+        None
+    }
+
     fn close(&mut self, tokens: &[Token], number: usize, token: Token) -> Closing {
-        let kind = |open: &usize| tokens.get(*open).map(|token| token.kind.closing());
-        let Some(last) = self.open.last().copied() else {
+        let Some((last, closing)) = self.open.last().copied() else {
             self.report(complaint::stray(token.kind, self.span(token), None));
             return Closing::Stray;
         };
-        if kind(&last) == Some(token.kind) {
-            self.open.pop();
+        if closing == token.kind {
+            self.pop();
             return Closing::Partner;
         }
-        if let Some(deeper) = self.open.iter().rposition(|open| kind(open) == Some(token.kind)) {
-            self.unclosed_from(tokens, deeper + 1, number);
-            self.open.pop();
+        if self.waiting.get(slot(token.kind)).is_some_and(|waiting| *waiting > 0) {
+            let deeper = self.open.iter().rposition(|(_, closing)| *closing == token.kind);
+            self.unclosed_from(tokens, deeper.unwrap_or(0) + 1, number);
+            self.pop();
             return Closing::Partner;
         }
         let opener = tokens.get(last).copied().unwrap_or(token);
@@ -159,7 +215,7 @@ impl Check<'_> {
             return Closing::Stray;
         }
         self.report(complaint::wrong(token.kind, self.span(token), opener.kind, self.span(opener)));
-        self.open.pop();
+        self.pop();
         Closing::Instead(opener.kind.closing())
     }
 

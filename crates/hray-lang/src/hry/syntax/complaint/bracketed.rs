@@ -2,48 +2,98 @@
 
 use super::super::kind::SyntaxKind;
 use super::super::parser::{Mark, Parser};
+use super::quoted;
 use crate::diagnostic::{Diagnostic, Span};
 
 impl Parser<'_> {
     /// What stands where a comma or the closing bracket belongs. True where the next element can be read as it is.
-    pub(in super::super) fn separator(&mut self, closing: SyntaxKind) -> bool {
-        let is_semicolon = self.is(SyntaxKind::Semicolon);
-        let before = self.at;
-        let gap = self.gap();
-        self.fail(|parser| {
-            let bracket = closing.spelling();
-            let message = format!("expected `,` or `{bracket}`, found {}", parser.found());
-            if is_semicolon {
-                let error = Diagnostic::error(
-                    "missing-comma",
-                    message,
-                    parser.here(),
-                    "elements are separated by commas",
-                );
-                return error.with_suggestion(parser.here(), ",", "write `,`");
-            }
-            let error = Diagnostic::error(
-                "missing-comma",
-                message,
-                parser.here(),
-                format!("expected `,` or `{bracket}` before this"),
-            );
-            let begins = matches!(
-                parser.current,
-                SyntaxKind::Name
-                    | SyntaxKind::OpenParen
-                    | SyntaxKind::OpenBracket
-                    | SyntaxKind::OpenBrace
-                    | SyntaxKind::Number
-                    | SyntaxKind::Underscore
-            );
-            if begins { error.with_suggestion(gap, ",", "add a comma") } else { error }
-        });
-        if is_semicolon {
-            self.bump();
+    /// `is_known` where commas of the same brackets were found missing before.
+    pub(in super::super) fn separator(&mut self, closing: SyntaxKind, is_known: &mut bool) -> bool {
+        if self.is(SyntaxKind::Bar) && self.has_bars {
             return true;
         }
-        before == self.at && matches!(self.current, SyntaxKind::Name)
+        let is_semicolon = self.is(SyntaxKind::Semicolon);
+        let is_element = is_semicolon || self.begins_element();
+        if is_element && *is_known {
+            self.failed_at = Some(self.at);
+        } else {
+            self.fail(|parser| parser.no_comma(closing));
+        }
+        *is_known |= is_element;
+        if is_semicolon {
+            self.bump();
+        }
+        is_element
+    }
+
+    /// Whether the next element seems to begin here, so that only a comma is missing.
+    fn begins_element(&self) -> bool {
+        use SyntaxKind as S;
+        matches!(
+            self.current,
+            S::Name
+                | S::Number
+                | S::Text
+                | S::Color
+                | S::Underscore
+                | S::OpenParen
+                | S::OpenBracket
+                | S::OpenBrace
+                | S::TrueKeyword
+                | S::FalseKeyword
+        )
+    }
+
+    fn no_comma(&self, closing: SyntaxKind) -> Diagnostic {
+        use SyntaxKind as S;
+        let (here, gap) = (self.here(), self.gap());
+        let bracket = closing.spelling();
+        let error = |message: String, label: &str| Diagnostic::error("missing-comma", message, here, label);
+        match self.current {
+            S::Arrow => self.no_backslash(),
+            S::Semicolon => error("elements are separated by `,`, not by `;`".into(), "expected `,`")
+                .with_suggestion(here, ",", "write `,`"),
+            S::Name if closing == S::CloseBrace && self.kind_ahead(1) == S::Define => {
+                let message = format!("missing `,` before the field `{}`", self.text_of(self.at));
+                error(message, "expected `,` before this").with_suggestion(gap, ",", "add a comma")
+            }
+            _ if closing == S::CloseBrace && self.begins_element() => {
+                let message = format!("missing `,` before {}", self.found());
+                error(message, "expected `,` before this").with_suggestion(gap, ",", "add a comma")
+            }
+            S::DotDot => {
+                let error =
+                    Diagnostic::error("range", "a range is written in brackets", here, "not expected here");
+                error.with_help("write `[0 .. 10]`")
+            }
+            S::Colon if closing == S::CloseParen => {
+                let error = Diagnostic::error(
+                    "annotation",
+                    "a type cannot be given here",
+                    here,
+                    "expected `,` or `)`",
+                );
+                error.with_help("give the type of a function on a line above it: `f : Number -> Number`")
+            }
+            S::Dot => {
+                let message = "a field directly follows its value, without a space";
+                let error =
+                    Diagnostic::error("missing-field", message, here, "expected no space before this");
+                let error = error.with_suggestion(Span::new(gap.end, here.start), "", "remove the space");
+                error.with_note("a function that takes a field is written `(\\r -> r.x)`")
+            }
+            S::Bar => {
+                let message = format!("`|` cannot follow here, expected `,` or `{bracket}`");
+                error(message, "not expected here")
+                    .with_help("`|` belongs in `[x | x <- list]` and `{ record | field = value }`")
+            }
+            _ => {
+                let message = format!("expected `,` or `{bracket}`, found {}", self.found());
+                let label = format!("expected `,` or `{bracket}` before this");
+                let error = error(message, &label);
+                if self.begins_element() { error.with_suggestion(gap, ",", "add a comma") } else { error }
+            }
+        }
     }
 
     pub(in super::super) fn empty_parentheses(&mut self, first: usize) {
@@ -129,16 +179,43 @@ impl Parser<'_> {
         )
     }
 
+    /// Neither a field nor the record to change follows the `{` at `start`.
     pub(in super::super) fn not_a_record(&self, start: Mark) -> Diagnostic {
-        let first = Self::token_of(start) + 1;
+        let open = Self::token_of(start);
+        let first = open + 1;
+        let before = open.checked_sub(1).map_or(SyntaxKind::End, |before| self.kind_of(before));
+        let code = "missing-field";
+        let is_condition = before == SyntaxKind::CloseParen && self.is_in_condition(open);
+        if matches!(before, SyntaxKind::ThenKeyword | SyntaxKind::ElseKeyword) || is_condition {
+            let message = "an `if` needs no braces; what is in braces is a record";
+            let error = Diagnostic::error("braces", message, self.span_of(open), "expected a value");
+            return error.with_help("write `if condition then a else b`");
+        }
+        let last = self.at.saturating_sub(1);
+        if let Some(with) = (first..=last).find(|token| self.text_of(*token) == "with") {
+            let message = "a record with other fields is written with `|`";
+            let error = Diagnostic::error(code, message, self.span_of(with), "expected `|`");
+            return error.with_suggestion(self.span_of(with), "|", "write `|`");
+        }
+        if self.kind_of(first) == SyntaxKind::Name && last == first + 1 {
+            let (name, value) = (quoted(self.text_of(first)), self.described(last));
+            let message = format!("expected `=` after {name}, found {value}");
+            let error =
+                Diagnostic::error("missing-equals", message, self.span_of(last), "expected `=` before this");
+            return error.with_suggestion(Span::at(self.span_of(first).end), " =", "add `=`");
+        }
         let message = format!("expected a field, found {}", self.described(first));
-        let error = Diagnostic::error(
-            "missing-field",
-            message,
-            self.span_of(first),
-            "a field is written `name = value`",
-        );
+        let error =
+            Diagnostic::error(code, message, self.span_of(first), "a field is written `name = value`");
         error.with_help("to change fields of a record, write `{ record | name = value }`")
+    }
+
+    /// Whether the parentheses that end before token `end` follow an `if`.
+    fn is_in_condition(&self, end: usize) -> bool {
+        let mut before = (0..end).rev().take(40);
+        before.find(|token| self.kind_of(*token) == SyntaxKind::OpenParen).is_some_and(|open| {
+            open.checked_sub(1).is_some_and(|before| self.kind_of(before) == SyntaxKind::IfKeyword)
+        })
     }
 
     /// Goes past the name of a field.
@@ -146,27 +223,71 @@ impl Parser<'_> {
         if self.eat(SyntaxKind::Name) {
             return true;
         }
-        self.fail(|parser| {
-            let message = format!("expected the name of a field, found {}", parser.found());
-            Diagnostic::error("missing-field", message, parser.here(), "a field is written `name = value`")
-        });
+        if self.is(SyntaxKind::TypeName) {
+            self.upper_case();
+            self.bump();
+            return true;
+        }
+        self.fail(Self::no_label);
+        let is_label = matches!(self.kind_ahead(1), SyntaxKind::Define | SyntaxKind::Colon);
+        if is_label && (self.is(SyntaxKind::Text) || self.current.is_keyword()) {
+            self.bump();
+            return true;
+        }
         false
+    }
+
+    fn no_label(&self) -> Diagnostic {
+        use SyntaxKind as S;
+        let here = self.here();
+        let error = |message: &str, label: &str| Diagnostic::error("missing-field", message, here, label);
+        match self.current {
+            kind if kind.is_keyword() && matches!(self.kind_ahead(1), S::Define | S::Colon) => {
+                self.keyword_as_name()
+            }
+            S::Text => {
+                let text = self.text_of(self.at).trim_matches('"');
+                error("the name of a field is written without quotes", "expected a name").with_suggestion(
+                    here,
+                    text,
+                    "leave the quotes out",
+                )
+            }
+            S::DotDot => error("a record with other fields is written with `|`", "expected a field")
+                .with_help("write `{ record | name = value }`"),
+            S::Comma if self.at.checked_sub(1).is_some_and(|before| self.kind_of(before) == S::Comma) => {
+                error("there is nothing between two commas", "a second comma").with_suggestion(
+                    here,
+                    "",
+                    "remove one",
+                )
+            }
+            S::Comma => error("nothing is before the comma", "expected a field before this").with_suggestion(
+                here,
+                "",
+                "remove it",
+            ),
+            _ => error(
+                &format!("expected the name of a field, found {}", self.found()),
+                "a field is written `name = value`",
+            ),
+        }
     }
 
     /// Whether an `=` follows, or what is taken for one.
     pub(in super::super) fn defines_field(&mut self) -> bool {
-        if self.is(SyntaxKind::Colon) {
-            let error = Diagnostic::error(
-                "colon-in-record",
-                "a field takes its value with `=`, not with `:`",
-                self.here(),
-                "expected `=`",
-            );
-            let error = error.with_suggestion(self.here(), " =", "write `=`");
-            self.report(error);
-            return true;
-        }
-        self.is(SyntaxKind::Define)
+        let text = match self.current {
+            SyntaxKind::Define => return true,
+            SyntaxKind::Colon => ":",
+            SyntaxKind::Equal => "==",
+            _ => return false,
+        };
+        let here = self.here();
+        let message = format!("a field takes its value with `=`, not with `{text}`");
+        let error = Diagnostic::error("colon-in-record", message, here, "expected `=`");
+        let space = if self.is_tight() { " " } else { "" };
+        self.report(error.with_suggestion(here, format!("{space}="), "write `=`"));
+        true
     }
 
     pub(in super::super) fn begins_value(&self) -> bool {
@@ -205,6 +326,14 @@ impl Parser<'_> {
             "expected where elements come from, such as `x <- list`",
         );
         error.with_help("`[x * x | x <- [1 .. 3]]` is `[1, 4, 9]`")
+    }
+
+    /// `x in list`
+    pub(in super::super) fn in_for_from(&mut self) {
+        let message = "the elements of a list are taken with `<-`";
+        let error = Diagnostic::error("comprehension", message, self.here(), "expected `<-`");
+        let error = error.with_suggestion(self.here(), "<-", "write `<-`");
+        self.report(error);
     }
 
     pub(in super::super) fn no_generator(&self) -> Diagnostic {

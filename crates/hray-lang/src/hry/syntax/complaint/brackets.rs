@@ -3,27 +3,28 @@
 use super::super::kind::SyntaxKind;
 use crate::diagnostic::{Diagnostic, Span};
 
-/// A bracket that is not closed. It has to be before `next`, the token where reading went on, and whether that is a
-/// closing bracket; `end` is the end of what is before that.
-pub(crate) fn unclosed(
-    kind: SyntaxKind,
-    open: Span,
-    end: usize,
-    next: Option<(bool, Span)>,
-    text: &str,
-    base: usize,
-) -> Diagnostic {
+/// What comes after the place where a bracket has to be closed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum After {
+    Closing,
+    Field,
+    Definition,
+}
+
+/// A bracket that is not closed. It has to be before `next`, the token where reading goes on; `end` is the end of what is
+/// before that.
+pub(crate) fn unclosed(kind: SyntaxKind, open: Span, end: usize, next: Option<(After, Span)>) -> Diagnostic {
     let closing = kind.closing().spelling();
     let message = format!("this `{}` is not closed", kind.spelling());
     let error =
         Diagnostic::error("unclosed-bracket", message, open, format!("expected a `{closing}` for it"));
     let error = match next {
-        Some((true, span)) => error.with_secondary(span, "this closes a bracket further out"),
-        Some((false, span)) => error.with_secondary(span, "this looks like the next definition"),
+        Some((After::Closing, span)) => error.with_secondary(span, "this closes a bracket further out"),
+        Some((After::Field, span)) => error.with_secondary(span, "this looks like the next field"),
+        Some((After::Definition, span)) => error.with_secondary(span, "this looks like the next definition"),
         None => error,
     };
-    let one_line = text.get(open.end.saturating_sub(base)..end.saturating_sub(base));
-    let space = if kind == SyntaxKind::OpenParen || one_line.is_none_or(str::is_empty) { "" } else { " " };
+    let space = if kind == SyntaxKind::OpenBrace { " " } else { "" };
     error.with_suggestion(Span::at(end), format!("{space}{closing}"), format!("add `{closing}`"))
 }
 

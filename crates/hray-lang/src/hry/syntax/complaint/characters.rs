@@ -7,7 +7,10 @@ use crate::diagnostic::{Diagnostic, Span};
 
 /// Something that is no part of the language.
 pub(crate) fn unknown(text: &str, span: Span) -> Diagnostic {
-    let message = format!("the character {} means nothing in hry", quoted(text));
+    let message = match text {
+        "`" => "a function is not written between backticks".to_owned(),
+        _ => format!("the character {} means nothing in hry", quoted(text)),
+    };
     let error = Diagnostic::error("unknown-character", message, span, "not a part of the language");
     match text {
         "?" => error.with_help("a choice is written `if condition then a else b`"),

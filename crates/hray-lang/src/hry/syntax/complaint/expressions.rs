@@ -2,7 +2,6 @@
 
 use super::super::kind::SyntaxKind;
 use super::super::parser::{Done, Mark, Parser};
-use super::quoted;
 use crate::diagnostic::{Diagnostic, Span};
 
 impl Parser<'_> {
@@ -57,6 +56,10 @@ impl Parser<'_> {
         if self.eat(SyntaxKind::Arrow) {
             return;
         }
+        if self.is(SyntaxKind::Colon) && self.kind_ahead(2) == SyntaxKind::Arrow {
+            self.cons_pattern();
+            return;
+        }
         self.fail(|parser| {
             let message = format!("expected `->`, found {}", parser.found());
             let error =
@@ -71,13 +74,40 @@ impl Parser<'_> {
         }
     }
 
+    /// `first :: rest ->`; goes past that.
+    fn cons_pattern(&mut self) {
+        let (first, rest) = (self.at.saturating_sub(1), self.at + 1);
+        let span = self.span_of(first).to(self.span_of(rest));
+        let message = "a list is taken apart in brackets";
+        let error = Diagnostic::error("list-pattern", message, self.here(), "not a part of a pattern");
+        let pattern = format!("[{}, .. {}]", self.text_of(first), self.text_of(rest));
+        self.report(error.with_suggestion(span, pattern, "write"));
+        self.bump();
+        self.bump();
+        self.bump();
+    }
+
+    /// A `|` before an arm of a `match`; said once.
+    pub(in super::super) fn bar_before_arm(&mut self) {
+        if self.has_bars {
+            return;
+        }
+        let message = "the arms of a `match` are separated by commas, and do not begin with `|`";
+        let error = Diagnostic::error("missing-pattern", message, self.here(), "expected a pattern");
+        let error = error.with_suggestion(self.here(), "", "remove it");
+        self.report(error);
+        self.has_bars = true;
+    }
+
     /// Goes past a word of `if`, which began at `start`.
     pub(in super::super) fn expect_word(&mut self, word: SyntaxKind, start: Mark) {
         if self.eat(word) {
             return;
         }
         self.fail(|parser| parser.no_word(word, start));
-        if !self.is(word) {
+        let goes_on =
+            word == SyntaxKind::ThenKeyword && matches!(self.current, SyntaxKind::Name | SyntaxKind::Number);
+        if !self.is(word) && !goes_on {
             self.skip_expr();
         }
         self.eat(word);
@@ -86,10 +116,11 @@ impl Parser<'_> {
     fn no_word(&self, word: SyntaxKind, start: Mark) -> Diagnostic {
         let word = word.spelling();
         let message = format!("this `if` has no `{word}`");
-        let label = format!("expected `{word}` here, found {}", self.found());
+        let label = format!("expected `{word}`, found {}", self.found());
         let error = Diagnostic::error("incomplete-if", message, self.here(), label);
         let error = error.with_secondary(self.span_of(Self::token_of(start)), "the `if`");
-        error.with_help("an `if` is a value, so it needs both: `if condition then a else b`")
+        let error = error.with_help("an `if` is a value, so it needs both: `if condition then a else b`");
+        self.with_layout(error)
     }
 
     pub(in super::super) fn no_arms(&self, start: Mark) -> Diagnostic {
@@ -97,11 +128,6 @@ impl Parser<'_> {
         let error = Diagnostic::error("missing-arms", message, self.here(), "expected `{`");
         let error = error.with_secondary(self.span_of(Self::token_of(start)), "the `match`");
         error.with_help("write `match list { [] -> 0, [first, .. rest] -> first }`")
-    }
-
-    /// A number and the like in front of an argument.
-    pub(in super::super) fn check_application(&mut self, function: Done) {
-        let _ = function;
     }
 
     /// A function, `let` or `if` as an argument, without parentheses.
@@ -112,56 +138,127 @@ impl Parser<'_> {
             _ => format!("`{word}`"),
         };
         let message = format!("{what} as an argument needs parentheses");
-        let (place, label) = (self.here(), "expected `(` before it");
+        let (place, is_function) = (self.here(), self.is(SyntaxKind::Backslash));
+        // Where it ends is not known, so what else seems wrong in it is not to be trusted.
+        let is_quiet = std::mem::replace(&mut self.is_quiet, true);
         let done = self.operation();
-        let end = self.gap();
-        let error = Diagnostic::error("bare-argument", message, place, label);
-        let whole = Span::new(place.start, end.end);
-        let text = self.text.get(whole.start - self.base..whole.end - self.base).unwrap_or("").to_owned();
-        self.report(error.with_suggestion(whole, format!("({text})"), "put it in parentheses"));
+        self.is_quiet = is_quiet;
+        let error = Diagnostic::error("bare-argument", message, place, "expected `(` before this");
+        let whole = Span::new(place.start, self.gap().end);
+        let error = match self.slice(whole) {
+            Some(text) if !is_function => {
+                error.with_suggestion(whole, format!("({text})"), "put it in parentheses")
+            }
+            _ => error.with_help("put the function in parentheses: `map (\\x -> x + 1) list`"),
+        };
+        self.report(error);
         done
     }
 
     /// Goes past `.name`, if it is that.
-    pub(in super::super) fn field_name(&mut self, record: Done) -> bool {
-        let is_name = matches!(self.kind_ahead(1), SyntaxKind::Name)
-            && self.tokens.get(self.at + 1).is_some_and(|name| !name.spaced);
-        if is_name {
+    pub(in super::super) fn field_name(&mut self) -> bool {
+        let is_tight = self.tokens.get(self.at + 1).is_some_and(|name| !name.spaced);
+        if self.kind_ahead(1) == SyntaxKind::Name && is_tight {
             self.bump();
             self.bump();
             return true;
         }
-        let _ = record;
-        self.fail(|parser| {
-            let message = "expected the name of a field directly after the `.`";
-            Diagnostic::error("missing-field", message, parser.here(), "no name follows this")
-        });
+        self.fail(|parser| parser.no_field_name(is_tight));
         self.bump();
-        false
-    }
-
-    /// No expression begins here.
-    pub(in super::super) fn no_expr(&mut self) -> Done {
-        let start = self.mark();
-        self.fail(Self::no_value);
-        if matches!(self.current, SyntaxKind::TypeName | SyntaxKind::Underscore) {
-            self.bump();
+        match self.current {
+            SyntaxKind::Name | SyntaxKind::TypeName | SyntaxKind::Number => self.bump(),
+            kind if kind.is_keyword() && is_tight => self.bump(),
+            _ => return false,
         }
-        self.error_expr(start)
+        true
     }
 
-    fn no_value(&self) -> Diagnostic {
-        let message = format!("expected a value, found {}", self.found());
-        let error = Diagnostic::error("missing-value", message, self.here(), "expected a value here");
-        match self.ended_by_layout() {
-            Some((name, place, line)) => error
-                .with_secondary(
-                    line,
-                    format!("this line starts at or left of {}, so it ended that", quoted(name)),
+    /// What is wrong after a `.`.
+    fn no_field_name(&self, is_tight: bool) -> Diagnostic {
+        let (dot, next) = (self.here(), self.span_of(self.at + 1));
+        let name = self.text_of(self.at + 1);
+        let error =
+            |message: &str, span: Span, label: &str| Diagnostic::error("missing-field", message, span, label);
+        let is_number =
+            self.at.checked_sub(1).is_some_and(|before| self.kind_of(before) == SyntaxKind::Number);
+        match self.kind_ahead(1) {
+            _ if is_number => {
+                let message = "a number has digits after its point";
+                Diagnostic::error("odd-number", message, dot, "expected a digit after this").with_suggestion(
+                    dot,
+                    "",
+                    "leave the point out",
                 )
-                .with_secondary(place, format!("{} starts here", quoted(name)))
-                .with_help("what belongs to a definition is indented more than its name"),
-            None => error,
+            }
+            SyntaxKind::Name => error(
+                "a field follows its `.` without a space",
+                Span::new(dot.end, next.start),
+                "expected no space here",
+            )
+            .with_suggestion(Span::new(dot.end, next.start), "", "remove the space"),
+            SyntaxKind::TypeName if is_tight => {
+                let lower = super::lower_case(name);
+                let error =
+                    error("fields begin with a lower-case letter", next, "expected the name of a field");
+                error.with_suggestion(next, lower.clone(), format!("write `{lower}`"))
+            }
+            SyntaxKind::Number if is_tight => {
+                let error =
+                    error("parts of a vector have names, not numbers", next, "expected the name of a field");
+                let part = match name {
+                    "0" => "x",
+                    "1" => "y",
+                    "2" => "z",
+                    _ => {
+                        return error
+                            .with_help("they are `.x`, `.y` and `.z`; an element of a list is `at 3 list`");
+                    }
+                };
+                error.with_suggestion(
+                    next,
+                    part,
+                    format!("write `{part}`; an element of a list is `at {name} list`"),
+                )
+            }
+            SyntaxKind::OpenBracket => {
+                error("a `.` is followed by the name of a field", next, "expected the name of a field")
+                    .with_help("an element of a list is `at 0 list`")
+            }
+            kind if kind.is_keyword() && is_tight => {
+                let message = format!("`{name}` is a word of the language, so it is no field");
+                error(&message, next, "expected the name of a field")
+            }
+            _ => error(
+                "a `.` is followed by the name of a field",
+                dot,
+                "expected the name of a field directly after this",
+            ),
+        }
+    }
+
+    /// `->` without a `\` before its parameters.
+    pub(in super::super) fn no_backslash(&self) -> Diagnostic {
+        let mut first = self.at;
+        while let Some(before) = first.checked_sub(1) {
+            if !matches!(self.kind_of(before), SyntaxKind::Name | SyntaxKind::Underscore) {
+                break;
+            }
+            first = before;
+        }
+        let message = "a function begins with a `\\`";
+        let error = Diagnostic::error(
+            "missing-backslash",
+            message,
+            self.here(),
+            "expected a `\\` before the parameters of this",
+        );
+        let parameters = Span::new(self.span_of(first).start, self.gap().end);
+        match self.slice(parameters).filter(|_| first < self.at) {
+            Some(names) => {
+                let whole = parameters.to(self.here());
+                error.with_suggestion(whole, format!("\\{names} ->"), "write")
+            }
+            None => error.with_help("write `\\x -> x * 2`"),
         }
     }
 }

@@ -99,6 +99,17 @@ pub(crate) fn color(text: &str, span: Span) -> Option<Diagnostic> {
             place,
             format!("`{odd}` is not one of the digits 0 to 9 and a to f"),
         );
+        let directives = [
+            "declare", "local", "macro", "include", "version", "if", "while", "end", "default", "define",
+            "import",
+        ];
+        if directives.contains(&digits) {
+            let message = format!("there are no directives such as `{text}` in hry");
+            let error = Diagnostic::error("odd-color", message, span, "not a part of the language");
+            return Some(
+                error.with_help("a value gets a name with `name = value`, other files come in with `import`"),
+            );
+        }
         let looks_like_a_word = digits.chars().all(char::is_alphabetic);
         let help = "a colour is `#` and 3 or 6 hexadecimal digits, such as `#ffb000`";
         return Some(match looks_like_a_word {

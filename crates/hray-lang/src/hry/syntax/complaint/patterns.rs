@@ -14,16 +14,20 @@ impl Parser<'_> {
     }
 
     pub(in super::super) fn no_pattern(&mut self) -> SyntaxKind {
-        self.fail(|parser| {
-            let message = format!("expected a pattern, found {}", parser.found());
-            Diagnostic::error(
-                "missing-pattern",
-                message,
-                parser.here(),
-                "expected a name, `_`, a value, or parts in brackets",
-            )
-        });
-        if self.is(SyntaxKind::TypeName) || self.is(SyntaxKind::Minus) {
+        match self.current {
+            SyntaxKind::TypeName => {
+                self.upper_case();
+                self.bump();
+                return SyntaxKind::NamePattern;
+            }
+            kind if kind.is_keyword() => self.fail(Self::keyword_as_name),
+            _ => self.fail(|parser| {
+                let message = format!("expected a pattern, found {}", parser.found());
+                let label = "expected a name, `_`, a value, or parts in brackets";
+                Diagnostic::error("missing-pattern", message, parser.here(), label)
+            }),
+        }
+        if self.is(SyntaxKind::Minus) {
             self.bump();
         }
         SyntaxKind::ErrorPattern
@@ -47,17 +51,24 @@ impl Parser<'_> {
 
     pub(in super::super) fn no_type(&self) -> Diagnostic {
         let message = format!("expected a type, found {}", self.found());
-        let error = Diagnostic::error("missing-type", message, self.here(), "expected a type");
+        let error = Diagnostic::error("missing-type", message, self.here(), "expected a type here");
         error.with_help("types are `Number`, `[Color]`, `{ size : Vec2 }`, `Hit -> Color` and the like")
     }
 
     pub(in super::super) fn after_type(&self) -> Diagnostic {
         let message = format!("expected the end of the type, found {}", self.found());
-        Diagnostic::error("type", message, self.here(), "not expected in a type")
+        let error = Diagnostic::error("annotation", message, self.here(), "not expected in a type");
+        match self.current {
+            SyntaxKind::Comma => error.with_help(
+                "the types of vectors are `Vec2` and `Vec3`; other things go into records or lists",
+            ),
+            SyntaxKind::Name | SyntaxKind::TypeName => error.with_help("a list of numbers is `[Number]`"),
+            _ => error,
+        }
     }
 
     pub(in super::super) fn no_field_type(&self) -> Diagnostic {
         let message = format!("expected `:` and a type, found {}", self.found());
-        Diagnostic::error("type", message, self.here(), "expected `:`")
+        Diagnostic::error("annotation", message, self.here(), "expected `:`")
     }
 }

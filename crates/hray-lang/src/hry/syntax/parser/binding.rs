@@ -21,18 +21,15 @@ impl Parser<'_> {
     pub(super) fn file(&mut self) {
         let start = self.mark();
         let mut promise = None;
+        let mut is_well = true;
         while self.at < self.tokens.len() {
-            let before = self.at;
+            let (before, errors) = (self.at, self.errors.len());
             self.layout_here();
-            if self.is(SyntaxKind::ImportKeyword) {
-                self.kept_promise(&mut promise, None);
-                self.import();
-            } else if self.begins_definition() {
-                self.binding(&mut promise, true);
-            } else {
-                self.no_definition();
-                self.skip_binding(Set::of(&[]));
-            }
+            // What follows an error and is no definition is still part of that.
+            self.is_quiet = !is_well && !self.begins_item();
+            self.item(&mut promise);
+            is_well = self.errors.len() == errors && !self.is_quiet;
+            self.is_quiet = false;
             self.layouts.pop();
             if self.at == before {
                 self.at += 1;
@@ -41,6 +38,33 @@ impl Parser<'_> {
         }
         self.kept_promise(&mut promise, None);
         self.node(SyntaxKind::File, start);
+    }
+
+    fn begins_item(&self) -> bool {
+        let after_let = usize::from(self.is(SyntaxKind::LetKeyword));
+        let is_other = self.current.is_keyword() && self.kind_ahead(1) == SyntaxKind::Define;
+        if self.is(SyntaxKind::ImportKeyword) || is_other {
+            return true;
+        }
+        super::super::brackets::begins_item(self.tokens, self.at + after_let)
+    }
+
+    /// An import, annotation or definition, or what stands there instead.
+    fn item(&mut self, promise: &mut Option<Promise>) {
+        if self.is(SyntaxKind::ImportKeyword) {
+            self.kept_promise(promise, None);
+            self.import();
+        } else if self.begins_definition() {
+            self.binding(promise, true);
+        } else if self.is(SyntaxKind::LetKeyword) && self.begins_item() {
+            self.let_at_the_top();
+            self.bump();
+            self.binding(promise, true);
+        } else {
+            *promise = None;
+            self.no_definition();
+            self.skip_binding(Set::of(&[]));
+        }
     }
 
     /// A binding begins here: its column says where it ends.
@@ -88,34 +112,68 @@ impl Parser<'_> {
         let (start, first) = (self.mark(), self.at);
         self.pattern(false);
         if self.is(SyntaxKind::Colon) {
-            self.kept_promise(promise, None);
-            if self.kind_of(first) == SyntaxKind::Name {
-                *promise = Some(Promise { name: first });
-            }
-            self.bump();
-            self.type_expr();
-            self.end_of_annotation(first);
+            self.annotation(promise, first);
             self.node(SyntaxKind::Annotation, start);
             return 1;
         }
         self.kept_promise(promise, Some(first));
+        let body = if self.parameters(first, is_top) {
+            self.inside(Around::Binding, Self::expr)
+        } else {
+            let body = self.mark();
+            self.skip_binding(Set::of(&[SyntaxKind::InKeyword, SyntaxKind::Comma]));
+            self.error_expr(body)
+        };
+        self.end_of_binding(first, is_top);
+        self.node(SyntaxKind::Definition, start);
+        body.height + 1
+    }
+
+    /// `: type` after a name.
+    fn annotation(&mut self, promise: &mut Option<Promise>, first: usize) {
+        let errors = self.errors.len();
+        match promise.take() {
+            Some(before) if self.text_of(before.name()) == self.text_of(first) => {
+                self.second_annotation(before, first);
+            }
+            other => {
+                *promise = other;
+                self.kept_promise(promise, None);
+            }
+        }
+        self.bump();
+        self.type_expr();
+        if !self.is_end() && !self.is(SyntaxKind::InKeyword) {
+            self.fail(|parser| parser.after_annotation(first));
+            self.skip_binding(Set::of(&[SyntaxKind::InKeyword]));
+        }
+        if self.kind_of(first) == SyntaxKind::Name && self.errors.len() == errors {
+            *promise = Some(Promise { name: first });
+        }
+    }
+
+    /// The parameters of a definition and its `=`. False where there is none.
+    fn parameters(&mut self, first: usize, is_top: bool) -> bool {
+        if defines(self.tokens, first).is_none() {
+            // What follows is no parameter list, so nothing is to be said about parameters.
+            while matches!(self.current, SyntaxKind::Name | SyntaxKind::Underscore) {
+                self.pattern(false);
+            }
+            if !self.is(SyntaxKind::Define) {
+                self.fail_for_good(|parser| parser.no_define(first));
+                return false;
+            }
+        }
         if is_top {
             self.check_target(first);
         }
         while self.begins_pattern() {
             self.pattern(false);
         }
-        let body = self.mark();
-        let height = if self.is(SyntaxKind::Define) {
-            self.bump();
-            self.inside(Around::Binding, Self::expr).height
-        } else {
+        if !self.is(SyntaxKind::Define) {
             self.fail(|parser| parser.no_define(first));
-            self.error_expr(body).height
-        };
-        self.end_of_binding(first, is_top);
-        self.node(SyntaxKind::Definition, start);
-        height + 1
+        }
+        self.eat(SyntaxKind::Define)
     }
 
     /// Everything up to the end of the binding.
@@ -127,27 +185,27 @@ impl Parser<'_> {
 
     /// What is left of a binding after its body was read: nothing, if all is well.
     fn end_of_binding(&mut self, first: usize, is_top: bool) {
-        let is_over = self.is_end()
-            || !is_top && self.is(SyntaxKind::InKeyword)
-            || self.open > 0 && (self.is(SyntaxKind::Comma) || self.current.is_close());
-        if is_over {
+        let is_followed = match self.current {
+            SyntaxKind::End => true,
+            SyntaxKind::InKeyword | SyntaxKind::Semicolon => !is_top,
+            SyntaxKind::Comma => self.open > 0 || !is_top && self.separates_bindings(),
+            SyntaxKind::Name => !is_top && !self.starts_line() && self.kind_ahead(1) == SyntaxKind::Define,
+            kind => self.open > 0 && kind.is_close(),
+        };
+        if is_followed {
             return;
         }
-        self.fail(|parser| parser.after_body(first, is_top));
+        if self.is(SyntaxKind::Semicolon) {
+            self.semicolon();
+        } else {
+            self.fail(|parser| parser.after_body(first, is_top));
+        }
         let stop: &[SyntaxKind] = match (is_top, self.open > 0) {
             (true, _) => &[],
             (false, true) => &[SyntaxKind::InKeyword, SyntaxKind::Comma],
             (false, false) => &[SyntaxKind::InKeyword],
         };
         self.skip_binding(Set::of(stop));
-    }
-
-    fn end_of_annotation(&mut self, first: usize) {
-        if self.is_end() || self.is(SyntaxKind::InKeyword) {
-            return;
-        }
-        self.fail(|parser| parser.after_annotation(first));
-        self.skip_binding(Set::of(&[SyntaxKind::InKeyword]));
     }
 
     /// `let bindings in body`

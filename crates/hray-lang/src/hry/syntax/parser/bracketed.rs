@@ -6,6 +6,7 @@ use super::{Around, Done, Mark, Parser, Set};
 impl Parser<'_> {
     /// Elements separated by commas up to a closing bracket; a comma may follow the last.
     pub(super) fn elements(&mut self, closing: SyntaxKind, mut element: impl FnMut(&mut Self)) {
+        let mut is_known = false;
         while !self.is(closing) && !self.is_end() {
             let before = self.at;
             element(self);
@@ -16,7 +17,7 @@ impl Parser<'_> {
                 self.bump();
                 continue;
             }
-            if self.separator(closing) {
+            if self.separator(closing, &mut is_known) && self.at > before {
                 continue;
             }
             self.skip_until(Set::of(&[SyntaxKind::Comma]));
@@ -116,9 +117,7 @@ impl Parser<'_> {
                     self.fail(Self::no_fields);
                 }
             } else {
-                self.fail(|parser| parser.not_a_record(start));
-                self.skip_until(Set::of(&[SyntaxKind::Comma]));
-                self.eat(SyntaxKind::Comma);
+                self.fail_at_record(start);
                 kind = SyntaxKind::ErrorExpr;
             }
         }
@@ -160,6 +159,13 @@ impl Parser<'_> {
         }
         self.node(SyntaxKind::FieldValue, start);
         height
+    }
+
+    fn fail_at_record(&mut self, start: Mark) {
+        self.fail(|parser| parser.not_a_record(start));
+        self.is_quiet |= self.errors.last().is_some_and(|error| error.code == "braces");
+        self.skip_until(Set::of(&[SyntaxKind::Comma]));
+        self.eat(SyntaxKind::Comma);
     }
 
     /// Makes an error node of everything since `start`.

@@ -36,6 +36,12 @@ impl Parser<'_> {
             return list.height + 1;
         }
         let guard = self.inside(Around::Condition, Self::expr);
+        if self.is(SyntaxKind::InKeyword) {
+            self.in_for_from();
+            self.bump();
+            self.inside(Around::Condition, Self::expr);
+            self.error_expr(start);
+        }
         self.node(SyntaxKind::Guard, start);
         guard.height + 1
     }

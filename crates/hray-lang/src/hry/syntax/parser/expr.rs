@@ -46,12 +46,17 @@ impl Parser<'_> {
         let mut function = self.postfix();
         loop {
             let argument = match self.current {
-                SyntaxKind::Minus if self.is_negative_argument() => self.negative(),
+                SyntaxKind::Minus if self.is_negative_argument() => {
+                    self.check_application(function);
+                    self.negative()
+                }
                 SyntaxKind::Backslash | SyntaxKind::LetKeyword | SyntaxKind::IfKeyword => {
                     self.bare_argument()
                 }
                 kind if self.begins_argument(kind) => {
-                    self.check_application(function);
+                    if !self.check_application(function) {
+                        return function;
+                    }
                     self.postfix()
                 }
                 _ => return function,
@@ -83,7 +88,7 @@ impl Parser<'_> {
         match self.around {
             Around::Binding => self.kind_ahead(1) == SyntaxKind::Define,
             Around::Arm => self.begins_arm(),
-            Around::Condition | Around::Subject => false,
+            Around::Condition | Around::Test | Around::Subject => false,
         }
     }
 
@@ -114,10 +119,10 @@ impl Parser<'_> {
     }
 
     /// Something and its fields.
-    fn postfix(&mut self) -> Done {
+    pub(in super::super) fn postfix(&mut self) -> Done {
         let mut record = self.primary();
         while self.is(SyntaxKind::Dot) && self.is_tight() {
-            if !self.field_name(record) {
+            if !self.field_name() {
                 return record;
             }
             record = self.expr_node(SyntaxKind::FieldExpr, record.start, record.height);
@@ -174,7 +179,7 @@ impl Parser<'_> {
             let start = self.mark();
             starts.push((start, self.at));
             self.bump();
-            let condition = self.inside(Around::Condition, Self::expr);
+            let condition = self.inside(Around::Test, Self::expr);
             self.expect_word(SyntaxKind::ThenKeyword, start);
             let then = self.expr();
             self.expect_word(SyntaxKind::ElseKeyword, start);
@@ -212,6 +217,10 @@ impl Parser<'_> {
 
     /// `pattern -> body`; how deep it is.
     fn arm(&mut self) -> u32 {
+        if self.is(SyntaxKind::Bar) {
+            self.bar_before_arm();
+            self.bump();
+        }
         let start = self.mark();
         self.pattern(true);
         self.expect_arrow();

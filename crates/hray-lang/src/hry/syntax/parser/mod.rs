@@ -33,6 +33,16 @@ pub(super) struct Mark {
     token: u32,
 }
 
+impl Done {
+    pub(super) const fn kind(self) -> SyntaxKind {
+        self.kind
+    }
+
+    pub(super) const fn start(self) -> Mark {
+        self.start
+    }
+}
+
 /// A finished node.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Done {
@@ -56,13 +66,18 @@ pub(super) struct Layout {
 pub(super) enum Around {
     /// The body of a definition, or a field: a `name =` begins the next one.
     Binding,
-    /// A condition or the inside of parentheses: an `=` is meant to compare.
+    /// The inside of parentheses or a list: an `=` is meant to compare.
     Condition,
+    /// The condition of an `if`: the same, and a `then` follows.
+    Test,
     /// The subject of a `match`: a `{` begins its arms.
     Subject,
     /// The body of an arm of a `match`: a `pattern ->` begins the next one.
     Arm,
 }
+
+/// That no unclosed bracket is around.
+const NO_WALL: usize = usize::MAX;
 
 /// A set of kinds of tokens.
 #[derive(Clone, Copy, Debug)]
@@ -96,7 +111,7 @@ pub(super) struct Parser<'t> {
     pub(super) layouts: Vec<Layout>,
     /// How many brackets are open.
     pub(super) open: u32,
-    /// The token before which an unclosed bracket ends everything in it.
+    /// The token before which an unclosed bracket ends everything in it; [`NO_WALL`] outside of such.
     pub(super) wall: usize,
     pub(super) around: Around,
     pub(super) nesting: u32,
@@ -107,6 +122,14 @@ pub(super) struct Parser<'t> {
     /// The token where the last error was.
     pub(super) failed_at: Option<usize>,
     pub(super) is_too_deep: bool,
+    /// Whether what is said already explains all that is wrong with this definition.
+    pub(super) is_quiet: bool,
+    /// Whether an arm of a `match` began with a `|`, and was reported.
+    pub(super) has_bars: bool,
+    /// How many brackets were open, and where, when a comma was missing.
+    pub(super) last_comma: (u32, usize),
+    /// Upper-case names of values that were reported.
+    pub(super) upper_case_names: Vec<&'t str>,
 }
 
 /// Reads a file.
@@ -126,7 +149,7 @@ pub(super) fn parse(
         current: SyntaxKind::End,
         layouts: Vec::new(),
         open: 0,
-        wall: tokens.len(),
+        wall: NO_WALL,
         around: Around::Binding,
         nesting: 0,
         chain: 0,
@@ -134,6 +157,10 @@ pub(super) fn parse(
         errors: Vec::new(),
         failed_at: None,
         is_too_deep: false,
+        is_quiet: false,
+        has_bars: false,
+        last_comma: (0, 0),
+        upper_case_names: Vec::new(),
     };
     parser.look();
     parser.file();
@@ -179,6 +206,10 @@ impl<'t> Parser<'t> {
         self.tokens.get(token).map_or(Span::at(end), |token| {
             Span::new(self.base + token.start as usize, self.base + token.end as usize)
         })
+    }
+
+    pub(super) fn slice(&self, span: Span) -> Option<&'t str> {
+        self.text.get(span.start.checked_sub(self.base)?..span.end.checked_sub(self.base)?)
     }
 
     pub(super) fn text_of(&self, token: usize) -> &'t str {
@@ -270,6 +301,9 @@ impl<'t> Parser<'t> {
             self.skip_until(Set::of(&[]));
         }
         let is_closed = self.is(closing);
+        if !is_closed {
+            self.failed_at = Some(self.at);
+        }
         self.open -= 1;
         self.wall = outer;
         if is_closed {
@@ -332,23 +366,36 @@ impl<'t> Parser<'t> {
 
     /// Reports an error at the current token, unless there is one already, or an unclosed bracket is why it is here.
     pub(super) fn fail(&mut self, error: impl FnOnce(&Self) -> Diagnostic) {
-        let is_at_wall = self.at >= self.wall && self.wall < self.tokens.len() || self.is_in_unclosed();
-        if self.failed_at != Some(self.at) && !is_at_wall {
-            let error = error(self);
-            self.report(error);
+        if self.failed_at != Some(self.at) && !self.is_silent() {
+            match self.foreign_word() {
+                Some(foreign) => {
+                    self.report(foreign);
+                    self.is_quiet = true;
+                }
+                None => {
+                    let error = error(self);
+                    self.report(error);
+                }
+            }
         }
         self.failed_at = Some(self.at);
     }
 
-    /// Whether this is the end of the file inside brackets, which was reported.
-    pub(super) fn is_in_unclosed(&self) -> bool {
-        self.open > 0 && self.at >= self.tokens.len()
+    /// The same, where the definition is so unlike the language that its other errors would say nothing.
+    pub(super) fn fail_for_good(&mut self, error: impl FnOnce(&Self) -> Diagnostic) {
+        self.fail(error);
+        self.is_quiet = true;
+    }
+
+    /// Whether an error would only repeat that this definition is not understood, or that a bracket around is not closed.
+    fn is_silent(&self) -> bool {
+        self.is_quiet || self.wall != NO_WALL
     }
 
     /// Reports an error beside the way: reading goes on as if nothing were wrong.
     pub(super) fn report(&mut self, error: Diagnostic) {
         // Some are thrown away when they are tidied.
-        if self.errors.len() < 4 * MOST_ERRORS {
+        if self.errors.len() < 4 * MOST_ERRORS && !self.is_silent() {
             self.errors.push(error);
         }
     }
@@ -367,12 +414,4 @@ impl<'t> Parser<'t> {
         );
         self.failed_at = Some(self.at);
     }
-}
-
-/// Puts errors in order, without those at the place of another, and no more than anybody reads.
-pub(super) fn tidy(mut errors: Vec<Diagnostic>) -> Vec<Diagnostic> {
-    errors.sort_by_key(|error| error.primary.span);
-    errors.dedup_by_key(|error| error.primary.span.start);
-    errors.truncate(MOST_ERRORS);
-    errors
 }

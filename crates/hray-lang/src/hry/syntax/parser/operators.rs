@@ -82,7 +82,7 @@ impl Parser<'_> {
 
     /// The operator here, where there is one.
     fn infix_here(&mut self) -> Option<(u8, Side)> {
-        if self.is(SyntaxKind::Define) && self.around == Around::Condition {
+        if self.is(SyntaxKind::Define) && matches!(self.around, Around::Condition | Around::Test) {
             self.single_equals();
             return Some((6, Side::None));
         }

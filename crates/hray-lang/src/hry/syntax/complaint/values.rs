@@ -1,0 +1,434 @@
+//! A value is missing, or is not written as one.
+
+use super::super::kind::SyntaxKind;
+use super::super::parser::{Around, Done, Parser};
+use super::{lower_case, quoted};
+use crate::diagnostic::{Diagnostic, Span};
+
+impl Parser<'_> {
+    /// No expression begins here.
+    pub(in super::super) fn no_expr(&mut self) -> Done {
+        let start = self.mark();
+        match self.current {
+            SyntaxKind::TypeName => {
+                self.upper_case();
+                self.bump();
+                return self.expr_node(SyntaxKind::NameExpr, start, 0);
+            }
+            SyntaxKind::Dot if self.kind_ahead(1) == SyntaxKind::Number => {
+                self.fail(Self::no_zero);
+                self.bump();
+                self.bump();
+            }
+            SyntaxKind::Dot if self.kind_ahead(1) == SyntaxKind::Name => {
+                self.fail(Self::accessor);
+                self.bump();
+                self.bump();
+            }
+            SyntaxKind::Less => {
+                self.fail(Self::angle_brackets);
+                self.skip_angle_brackets();
+            }
+            SyntaxKind::Plus => {
+                self.fail(Self::plus);
+                self.bump();
+                if !self.is(SyntaxKind::CloseParen) {
+                    return self.postfix();
+                }
+            }
+            SyntaxKind::Underscore => {
+                self.fail(Self::wildcard);
+                self.bump();
+            }
+            _ => self.fail(Self::no_value),
+        }
+        self.error_expr(start)
+    }
+
+    /// A name with an upper-case initial, where a name of a value belongs. Once for every name.
+    pub(in super::super) fn upper_case(&mut self) {
+        let name = self.text_of(self.at);
+        if self.upper_case_names.contains(&name) {
+            return;
+        }
+        self.fail(|parser| {
+            let (code, span) = ("upper-case-name", parser.here());
+            let word = match name {
+                "True" | "TRUE" => Some("true"),
+                "False" | "FALSE" => Some("false"),
+                _ => None,
+            };
+            if let Some(word) = word {
+                let error = Diagnostic::error(
+                    code,
+                    format!("`{name}` is written `{word}`"),
+                    span,
+                    "a lower-case word",
+                );
+                return error.with_suggestion(span, word, format!("write `{word}`"));
+            }
+            let message = format!("{} begins with a capital, but only types do", quoted(name));
+            let error = Diagnostic::error(code, message, span, "expected the name of a value");
+            let lower = lower_case(name);
+            error.with_suggestion(span, lower.clone(), format!("write `{lower}`"))
+        });
+        self.upper_case_names.push(name);
+    }
+
+    /// `.5`
+    fn no_zero(&self) -> Diagnostic {
+        let span = self.here().to(self.span_of(self.at + 1));
+        let error = Diagnostic::error(
+            "odd-number",
+            "a number begins with a digit",
+            span,
+            "expected a digit before the point",
+        );
+        error.with_suggestion(Span::at(span.start), "0", "write a zero")
+    }
+
+    /// `.name` alone.
+    fn accessor(&self) -> Diagnostic {
+        let field = self.text_of(self.at + 1);
+        let span = self.here().to(self.span_of(self.at + 1));
+        let message = format!("`.{field}` needs something before it to take `{field}` of");
+        let error =
+            Diagnostic::error("missing-value", message, span, "expected a value directly before the `.`");
+        error.with_suggestion(
+            span,
+            format!("(\\r -> r.{field})"),
+            "for a function that takes the field, write",
+        )
+    }
+
+    /// `<1, 2, 3>`
+    fn angle_brackets(&self) -> Diagnostic {
+        let message = "a vector is written in parentheses, not in `<` and `>`";
+        let span = self.here();
+        let error = Diagnostic::error("angle-brackets", message, span, "expected a value");
+        let end = self.closing_angle();
+        let inner = end.and_then(|end| {
+            let range = self.span_of(self.at + 1).start..self.span_of(end).start;
+            Some((self.span_of(end).end, self.slice(Span::from(range))?))
+        });
+        match inner {
+            Some((end, inner)) => {
+                let whole = Span::new(span.start, end);
+                error.with_suggestion(whole, format!("({})", inner.trim()), "write parentheses")
+            }
+            None => error.with_help("write `(0, 1, 2)`"),
+        }
+    }
+
+    /// The `>` that seems to close a `<`.
+    fn closing_angle(&self) -> Option<usize> {
+        use SyntaxKind as S;
+        let tokens = self.at + 1..self.at + 20;
+        let mut tokens = tokens.take_while(|token| {
+            matches!(self.kind_of(*token), S::Number | S::Name | S::Minus | S::Comma | S::Star | S::Greater)
+        });
+        tokens.find(|token| self.kind_of(*token) == S::Greater)
+    }
+
+    fn skip_angle_brackets(&mut self) {
+        let end = self.closing_angle().unwrap_or(self.at);
+        while self.at <= end && !self.is_end() {
+            self.bump();
+        }
+    }
+
+    fn plus(&self) -> Diagnostic {
+        if self.follows_open_paren() {
+            return self.section();
+        }
+        let error = Diagnostic::error(
+            "missing-value",
+            "nothing is before the `+`",
+            self.here(),
+            "expected a value before this",
+        );
+        error.with_suggestion(self.here(), "", "a number needs no plus sign")
+    }
+
+    fn follows_open_paren(&self) -> bool {
+        self.at.checked_sub(1).is_some_and(|before| self.kind_of(before) == SyntaxKind::OpenParen)
+    }
+
+    /// `(+ 1)`
+    fn section(&self) -> Diagnostic {
+        let operator = self.text_of(self.at);
+        let message = format!("`{operator}` needs a value on both sides");
+        let error = Diagnostic::error("operator-section", message, self.here(), "nothing is before this");
+        match self.kind_ahead(1) {
+            SyntaxKind::CloseParen => {
+                error.with_help(format!("for the function, write `(\\a b -> a {operator} b)`"))
+            }
+            _ => {
+                let operand = self.text_of(self.at + 1);
+                error.with_help(format!("for the function, write `(\\x -> x {operator} {operand})`"))
+            }
+        }
+    }
+
+    fn wildcard(&self) -> Diagnostic {
+        let error = Diagnostic::error("missing-value", "`_` has no value", self.here(), "expected a value");
+        error.with_help("`_` stands for what a pattern takes and nobody needs; give it a name to use it")
+    }
+
+    fn no_value(&self) -> Diagnostic {
+        use SyntaxKind as S;
+        let before = self.at.checked_sub(1);
+        let before_kind = before.map_or(S::End, |before| self.kind_of(before));
+        match self.current {
+            _ if self.is_end() => return self.nothing_follows(before),
+            S::Comma if before_kind == S::Comma => return self.doubled_comma(),
+            S::Comma if before_kind.is_open() => return self.leading_comma(),
+            kind if kind.is_close() && before_kind == S::Percent => return self.percent_apart(),
+            S::Comma if before_kind == S::Percent => return self.percent_apart(),
+            kind if is_operator(kind) && before_kind == S::OpenParen => return self.section(),
+            S::Pipe => {
+                let error = Diagnostic::error(
+                    "missing-value",
+                    "nothing is before the `|>`",
+                    self.here(),
+                    "expected a value before this",
+                );
+                return error
+                    .with_help("`value |> function` passes a value on: remove what ended it before this");
+            }
+            kind if kind.is_keyword() && matches!(self.kind_ahead(1), S::Define | S::Comma) => {
+                return self.keyword_as_name();
+            }
+            S::DotDot => {
+                let error = Diagnostic::error(
+                    "range",
+                    "a range is written in brackets",
+                    self.here(),
+                    "not expected here",
+                );
+                return error.with_help("write `[0 .. 10]`");
+            }
+            S::Define => {
+                return Diagnostic::error(
+                    "missing-value",
+                    "expected a value, found a second `=`",
+                    self.here(),
+                    "expected a value",
+                );
+            }
+            _ => {}
+        }
+        let after = before.map_or(String::new(), |before| format!(" after {}", self.described(before)));
+        let message = format!("expected a value{after}, found {}", self.found());
+        Diagnostic::error("missing-value", message, self.here(), "expected a value before this")
+    }
+
+    /// The binding or the file is over where a value belongs.
+    fn nothing_follows(&self, before: Option<usize>) -> Diagnostic {
+        let Some(before) = before else {
+            return Diagnostic::error(
+                "missing-value",
+                "expected a value",
+                self.here(),
+                "expected a value here",
+            );
+        };
+        if self.kind_of(before) == SyntaxKind::Percent {
+            return self.percent_apart();
+        }
+        let name = self.definition_name();
+        let text = self.text_of(before);
+        let (message, label) = match (self.kind_of(before), name) {
+            (SyntaxKind::Define, Some(name)) => {
+                (format!("{} has no value", quoted(name)), "expected a value after this")
+            }
+            _ => (format!("nothing follows the `{text}`"), "expected a value after this"),
+        };
+        let error = Diagnostic::error("missing-value", message, self.span_of(before), label);
+        let counts = before.checked_sub(1).is_some_and(|operand| self.kind_of(operand) == SyntaxKind::Name)
+            && self.tokens.get(before).is_some_and(|token| !token.spaced);
+        let error = match text {
+            "++" if counts => error
+                .with_note("`++` joins two lists or texts; nothing can be counted up, since nothing changes"),
+            _ => error,
+        };
+        self.with_layout(error)
+    }
+
+    /// Says so where a line that begins too far left ended the binding.
+    pub(in super::super) fn with_layout(&self, error: Diagnostic) -> Diagnostic {
+        let Some((name, place, line)) = self.ended_by_layout() else { return error };
+        let is_next =
+            super::super::brackets::begins_item(self.tokens, self.at) || self.kind_of(self.at).is_keyword();
+        if is_next
+            && !matches!(
+                self.kind_of(self.at),
+                SyntaxKind::IfKeyword
+                    | SyntaxKind::LetKeyword
+                    | SyntaxKind::ElseKeyword
+                    | SyntaxKind::ThenKeyword
+            )
+        {
+            return error;
+        }
+        let name = quoted(name);
+        error
+            .with_secondary(
+                line,
+                format!("this line begins no further right than {name}, so it is not part of it"),
+            )
+            .with_secondary(place, format!("{name} begins here"))
+            .with_help("indent what belongs to a definition more than its name")
+    }
+
+    /// `50 %`
+    fn percent_apart(&self) -> Diagnostic {
+        let before = self.at.saturating_sub(1);
+        let percent = self.span_of(before);
+        let error = Diagnostic::error(
+            "missing-value",
+            "nothing follows the `%`",
+            percent,
+            "expected what to divide by",
+        );
+        let number = before.saturating_sub(1);
+        if self.kind_of(number) != SyntaxKind::Number {
+            return error.with_help("`a % b` is the remainder of a division");
+        }
+        let gap = Span::new(self.span_of(number).end, percent.start);
+        error.with_suggestion(gap, "", "for per cent, write the sign directly after the digits")
+    }
+
+    fn doubled_comma(&self) -> Diagnostic {
+        let error = Diagnostic::error(
+            "missing-value",
+            "there is nothing between two commas",
+            self.here(),
+            "a second comma",
+        );
+        error.with_suggestion(self.here(), "", "remove one")
+    }
+
+    fn leading_comma(&self) -> Diagnostic {
+        let error = Diagnostic::error(
+            "missing-value",
+            "nothing is before the comma",
+            self.here(),
+            "expected a value before this",
+        );
+        error.with_suggestion(self.here(), "", "remove it")
+    }
+
+    /// A word of the language as a name.
+    pub(in super::super) fn keyword_as_name(&self) -> Diagnostic {
+        let word = self.text_of(self.at);
+        let message = format!("`{word}` is a word of the language, so it cannot be a name");
+        let error = Diagnostic::error("keyword-as-name", message, self.here(), "expected a name");
+        error.with_suggestion(self.here(), format!("{word}_"), "take another name, such as")
+    }
+
+    /// Something that is no function in front of an argument. False where that is not meant as an argument at all.
+    pub(in super::super) fn check_application(&mut self, function: Done) -> bool {
+        use SyntaxKind as S;
+        let what = match function.kind() {
+            S::Literal => match self.kind_of(Self::token_of(function.start())) {
+                S::Number => "number",
+                S::Text => "text",
+                S::Color => "colour",
+                _ => "truth value",
+            },
+            S::VectorExpr => "vector",
+            S::ListExpr | S::RangeExpr | S::ComprehensionExpr => "list",
+            S::RecordExpr | S::UpdateExpr => "record",
+            _ => return true,
+        };
+        let (open, at) = self.last_comma;
+        if open == self.open && self.at - at <= 2 && at > 0 {
+            // The commas of a list are all missing: said once.
+            self.failed_at = Some(self.at);
+        }
+        self.fail(|parser| parser.not_a_function(what, function));
+        self.last_comma = (self.open, self.at);
+        let is_next_element =
+            self.open > 0 && self.around == Around::Condition || self.around == Around::Test;
+        !is_next_element
+            || matches!(self.text_of(self.at), "deg" | "-")
+            || self.text_of(self.at - 1).ends_with('%')
+    }
+
+    fn not_a_function(&self, what: &str, function: Done) -> Diagnostic {
+        let gap = self.gap();
+        let operand = self.text_of(self.at);
+        let head = Span::new(self.span_of(Self::token_of(function.start())).start, gap.end);
+        let text = self.text_of(self.at.saturating_sub(1));
+        let error = |code, message: String| {
+            Diagnostic::error(code, message, self.here(), "not expected here")
+                .with_secondary(head, format!("a {what}"))
+        };
+        if what == "number" && matches!(operand, "deg" | "degrees" | "degree") {
+            let span = Span::new(gap.start, self.here().end);
+            let message = "the unit of an angle directly follows its digits";
+            let error =
+                Diagnostic::error("odd-number", message, self.here(), "expected no space before this");
+            return error.with_suggestion(span, "deg", "write `deg` without a space");
+        }
+        if what == "number" && text.ends_with('%') {
+            let percent = Span::new(gap.end - 1, gap.end);
+            let message = format!("`{text}` is a percentage, and {} follows it", self.found());
+            return error("tight-modulo", message).with_suggestion(
+                percent,
+                " %",
+                "for the remainder of a division, put a space before the `%`",
+            );
+        }
+        if what == "number" && operand == "-" {
+            let minus = self.here();
+            let span = Span::new(minus.start, self.span_of(self.at + 1).start);
+            let message = "this reads as two numbers, because the `-` belongs to the second";
+            return error("missing-operator", message.into()).with_suggestion(
+                span,
+                "- ",
+                "to subtract, put a space after the `-`",
+            );
+        }
+        if self.open > 0 && self.around == Around::Condition {
+            let message = format!("missing `,` between this {what} and {}", self.found());
+            return error("missing-comma", message).with_suggestion(gap, ",", "add a comma");
+        }
+        if self.around == Around::Test {
+            let message = format!("missing `then` before {}", self.found());
+            return Diagnostic::error("incomplete-if", message, self.here(), "expected `then` before this")
+                .with_suggestion(gap, " then", "add `then`");
+        }
+        let message = format!("a {what} cannot be applied to {}", self.found());
+        let error = error("not-a-function", message);
+        match what {
+            "number" if operand == "mod" => error.with_help("the remainder of a division is `a % b`"),
+            "number" if operand == "div" => error.with_help("the whole quotient is `floor (a / b)`"),
+            "number" => error.with_suggestion(gap, " *", "for a product, write the `*`"),
+            _ => error,
+        }
+    }
+}
+
+/// Whether a token only stands between two values.
+fn is_operator(kind: SyntaxKind) -> bool {
+    use SyntaxKind as S;
+    matches!(
+        kind,
+        S::Star
+            | S::Slash
+            | S::Percent
+            | S::Caret
+            | S::Append
+            | S::Compose
+            | S::Pipe
+            | S::Equal
+            | S::NotEqual
+            | S::LessEqual
+            | S::Greater
+            | S::GreaterEqual
+            | S::AndKeyword
+            | S::OrKeyword
+    )
+}
