@@ -1,19 +1,29 @@
 //! Pictures whose bytes are known: those of 2005, and the project's own examples.
 
-use conformance::{p3_hash, recorded};
+use conformance::{converted_p3_hash, p3_hash, recorded};
 use hray::NoiseTables;
 use std::path::{Path, PathBuf};
 
 fn check(recorded: &[(String, String)], scenes: &Path, tables: &NoiseTables) -> usize {
     let mut failures = Vec::new();
     for (name, expected) in recorded {
-        let found = p3_hash(&scenes.join(format!("{name}.hry")), tables);
+        let scene = scenes.join(format!("{name}.hry"));
+        let found = p3_hash(&scene, tables);
         if found.as_ref() != Ok(expected) {
             failures.push(format!("{name}: {found:?} instead of {expected}"));
+        }
+        let converted = is_classic(&scene).then(|| converted_p3_hash(&scene, tables));
+        if converted.as_ref().is_some_and(|found| !matches!(found, Ok(Some(hash)) if hash == expected)) {
+            failures.push(format!("{name} in hry: {converted:?} instead of {expected}"));
         }
     }
     assert!(failures.is_empty(), "{} pictures differ:\n{}", failures.len(), failures.join("\n"));
     recorded.len()
+}
+
+fn is_classic(scene: &Path) -> bool {
+    let file = hray::SceneFile::read(&hray::Input::File(scene.to_owned()), &hray::LoadOptions::default());
+    file.is_ok_and(|file| file.language() == hray::Language::Classic)
 }
 
 /// The 18 scenes of the original distribution, with its own noise tables. They are not part of the project:

@@ -213,7 +213,14 @@ impl Resolver<'_> {
             }
         }
         let local = self.names.locals.len();
-        self.names.locals.push(Local { name: name.clone(), span, scope, is_let, is_used: false, fields: Fields::None });
+        self.names.locals.push(Local {
+            name: name.clone(),
+            span,
+            scope,
+            is_let,
+            is_used: false,
+            fields: Fields::None,
+        });
         self.names.bound.insert(span.start, local);
         self.scopes.entry(name.clone()).or_default().push(local);
         locals.push(local);

@@ -189,6 +189,18 @@ impl Infer<'_> {
         Ok(false)
     }
 
+    /// The fields that are demanded of something that is not known yet.
+    pub(in crate::hry::types) fn demanded_fields(&self, ty: Ty) -> Vec<Arc<str>> {
+        let variable = self.types.store.find(ty);
+        let waiting = self.waiting_fields.get(&variable).into_iter().flatten();
+        let demands = waiting.filter_map(|id| self.constraints.get(*id));
+        let names = demands.filter_map(|constraint| match &constraint.demand {
+            Demand::Field { name, .. } => Some(name.clone()),
+            _ => None,
+        });
+        names.collect()
+    }
+
     /// A record that a constructor takes.
     fn construct(&mut self, record: Ty, constructor: &'static Constructor, origin: Origin) -> Decided {
         match self.types.store.get(record).clone() {
