@@ -12,7 +12,8 @@ use crate::hry::sources::Sources;
 use crate::hry::syntax;
 use std::sync::{Arc, OnceLock};
 
-/// Finds the meaning of every name and the type of every expression of a program. What is wrong goes to `diagnostics`.
+/// Finds the meaning of every name and the type of every expression of a program. What is wrong goes to
+/// `diagnostics`.
 pub fn check(program: &Program, diagnostics: &mut Vec<Diagnostic>) -> Checked {
     let first = standard().modules.len();
     let own = first..program.modules.len();

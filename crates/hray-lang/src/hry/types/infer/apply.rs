@@ -103,10 +103,11 @@ impl<'p> Infer<'p> {
             }
             return Some(());
         }
-        if let ExprKind::Vector(parts) = &argument.kind {
-            if index == 0 && call.arguments.len() == 1 {
-                return self.vector_argument(call, argument, parts, from, why);
-            }
+        if let ExprKind::Vector(parts) = &argument.kind
+            && index == 0
+            && call.arguments.len() == 1
+        {
+            return self.vector_argument(call, argument, parts, from, why);
         }
         let before = self.diagnostics.len();
         self.expr(argument, Some((from, why)));
@@ -129,8 +130,8 @@ impl<'p> Infer<'p> {
         found.map_or(wanted, |(_, ty)| ty)
     }
 
-    /// The only argument of a call, written as a vector. `f (a, b)` probably meant `f a b` where `f` takes no vector, or
-    /// `a` is no number.
+    /// The only argument of a call, written as a vector. `f (a, b)` probably meant `f a b` where `f` takes no
+    /// vector, or `a` is no number.
     fn vector_argument(
         &mut self,
         call: &Call<'_, 'p>,
@@ -165,7 +166,8 @@ impl<'p> Infer<'p> {
         Some(())
     }
 
-    /// Whether `f g x` probably meant `f (g x)`: `g` is a function where none is taken, and `x` would be one too many.
+    /// Whether `f g x` probably meant `f (g x)`: `g` is a function where none is taken, and `x` would be one
+    /// too many.
     fn is_call_without_parentheses(&self, call: &Call<'_, 'p>, index: usize) -> bool {
         let Some(argument) = call.arguments.get(index) else { return false };
         let piped = call.arguments.iter().any(|argument| argument.span.end <= call.callee.span.start);

@@ -179,11 +179,12 @@ impl Infer<'_> {
         let others = self.waiting_fields.get(&variable).cloned().unwrap_or_default();
         for other in others {
             let demand = self.constraints.get(other).map(|constraint| constraint.demand.clone());
-            if let Some(Demand::Field { name: known, result: first, .. }) = demand {
-                if known == *name && self.solved.get(other) == Some(&false) {
-                    self.types.store.unify(result, first)?;
-                    return Ok(true);
-                }
+            if let Some(Demand::Field { name: known, result: first, .. }) = demand
+                && known == *name
+                && self.solved.get(other) == Some(&false)
+            {
+                self.types.store.unify(result, first)?;
+                return Ok(true);
             }
         }
         Ok(false)

@@ -7,7 +7,8 @@ use crate::diagnostic::{Diagnostic, Span, Suggestion};
 use crate::hry::ast::{Expr, ExprKind, UnaryOperator};
 
 impl<'p> Infer<'p> {
-    /// Something is given an argument that takes none, or no more. `index` counts the arguments that went well.
+    /// Something is given an argument that takes none, or no more. `index` counts the arguments that went
+    /// well.
     pub(in crate::hry::types) fn not_a_function(
         &self,
         callee: &'p Expr,

@@ -26,10 +26,10 @@ impl Infer<'_> {
             }
         };
         self.report(error);
-        if let Demand::Arithmetic { result, .. } | Demand::Field { result, .. } = constraint.demand {
-            if self.types.store.is_variable(result) {
-                let _ = self.types.store.unify(result, Ty::ERROR);
-            }
+        if let Demand::Arithmetic { result, .. } | Demand::Field { result, .. } = constraint.demand
+            && self.types.store.is_variable(result)
+        {
+            let _ = self.types.store.unify(result, Ty::ERROR);
         }
     }
 

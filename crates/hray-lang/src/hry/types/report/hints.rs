@@ -23,29 +23,29 @@ impl<'p> Infer<'p> {
     ) -> Diagnostic {
         let store = &self.types.store;
         let expected_head = store.head(expected);
-        if let (Some(expr), Node::Function(from, to)) = (expr, store.get(found)) {
-            if expected_head != Some(Head::Function) {
-                return self.missing_arguments(error, expr, found, (*from, *to), expected, why);
-            }
+        if let (Some(expr), Node::Function(from, to)) = (expr, store.get(found))
+            && expected_head != Some(Head::Function)
+        {
+            return self.missing_arguments(error, expr, found, (*from, *to), expected, why);
         }
         if let (Node::Function(given, _), Node::Function(taken, _)) = (store.get(found), store.get(expected))
         {
             return self.other_parameter(error, span, (*given, *taken), found, expected);
         }
-        if let (Node::List(of), Some(found)) = (store.get(expected), store.head(found)) {
-            if store.head(*of) == Some(found) {
-                return self.suggest(
-                    error,
-                    span,
-                    |text| format!("[{text}]"),
-                    "a list of one is written in brackets:",
-                );
-            }
+        if let (Node::List(of), Some(found)) = (store.get(expected), store.head(found))
+            && store.head(*of) == Some(found)
+        {
+            return self.suggest(
+                error,
+                span,
+                |text| format!("[{text}]"),
+                "a list of one is written in brackets:",
+            );
         }
-        if let (Node::List(of), Some(expected)) = (store.get(found), expected_head) {
-            if store.head(*of) == Some(expected) {
-                return self.list_for_one(error, expected, why);
-            }
+        if let (Node::List(of), Some(expected)) = (store.get(found), expected_head)
+            && store.head(*of) == Some(expected)
+        {
+            return self.list_for_one(error, expected, why);
         }
         if let (Some(why), Node::Rigid { .. }) = (why, store.get(expected)) {
             return self.rigid_hint(error, found, expected, why);
@@ -56,10 +56,10 @@ impl<'p> Infer<'p> {
             );
             return error.with_help(help);
         }
-        if let (Some(Head::Number), Some(kind)) = (store.head(found), store.kind(expected)) {
-            if kind == Kind::PLACEABLE {
-                return error.with_help("what is moved, turned or scaled comes last: `shape |> scale 2`");
-            }
+        if let (Some(Head::Number), Some(kind)) = (store.head(found), store.kind(expected))
+            && kind == Kind::PLACEABLE
+        {
+            return error.with_help("what is moved, turned or scaled comes last: `shape |> scale 2`");
         }
         match (store.head(found), expected_head) {
             (Some(found), Some(expected)) => self.hint_of_heads(error, expr, span, found, expected, why),
@@ -86,13 +86,13 @@ impl<'p> Infer<'p> {
     /// Something is given where an annotation says that it may be anything.
     fn rigid_hint(&self, error: Diagnostic, found: Ty, expected: Ty, why: Why<'p>) -> Diagnostic {
         let name = self.show(expected);
-        if let Why::Argument { callee, .. } = why {
-            if self.is_recursive(callee) {
-                let function = self.quoted(callee.span).unwrap_or("it");
-                return error.with_help(format!(
+        if let Why::Argument { callee, .. } = why
+            && self.is_recursive(callee)
+        {
+            let function = self.quoted(callee.span).unwrap_or("it");
+            return error.with_help(format!(
                     "inside its own definition `{function}` has one type, and cannot be used for another than `{name}`"
                 ));
-            }
         }
         let found = self.show(found);
         error.with_help(format!(

@@ -233,10 +233,10 @@ impl<'p> Infer<'p> {
     /// Where two large types differ, in what.
     fn inner_difference(&self, found: Ty, expected: Ty, clash: Clash) -> Option<String> {
         let store = &self.types.store;
-        if let (Node::Record(a), Node::Record(b)) = (store.get(found), store.get(expected)) {
-            if let Some(note) = record_difference(a, b) {
-                return Some(note);
-            }
+        if let (Node::Record(a), Node::Record(b)) = (store.get(found), store.get(expected))
+            && let Some(note) = record_difference(a, b)
+        {
+            return Some(note);
         }
         match clash {
             Clash::Differ(a, b) => {
