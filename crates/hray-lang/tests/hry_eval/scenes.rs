@@ -38,8 +38,7 @@ fn colours_are_decoded_to_linear_light() {
 #[test]
 fn the_innermost_paint_wins_and_groups_are_flat() {
     let description = scene(
-        "own = sphere { material = classic { color = rgb 1 0 0 } }
-         scene = { objects = [group [own, sphere {}, group [cube {}]]
+        "own = sphere { material = classic { color = rgb 1 0 0 } }\nscene = { objects = [group [own, sphere {}, group [cube {}]]
            |> paint (classic { color = rgb 0 1 0 }) |> paint (classic { color = rgb 0 0 1 })] }",
     );
     let colors: Vec<_> = description.scene.primitives.iter().map(|p| p.material.texture.clone()).collect();
@@ -107,8 +106,7 @@ fn imports_bring_names_in() {
         ("lib/base.hry", "hot = rgb 1 0.5 0"),
         ("all.hry", "radius = 7"),
     ]));
-    let text = "import \"lib/colors.hry\" (warm)\nimport \"all.hry\"\nimport \"lib/base.hry\" as b
-        scene = { objects = [sphere { radius = radius, material = classic { color = warm } }], background = b.hot }";
+    let text = "import \"lib/colors.hry\" (warm)\nimport \"all.hry\"\nimport \"lib/base.hry\" as b\nscene = { objects = [sphere { radius = radius, material = classic { color = warm } }], background = b.hot }";
     let (program, evaluated) = run_with(text, &files, 0.0, &Limits::default());
     let description = evaluated.description.unwrap_or_else(|| panic!("{}", shown(&program, &evaluated.diagnostics)));
     assert_eq!(description.scene.background, Background::Uniform(Rgb::new(1.0, 0.5, 0.0)));

@@ -67,8 +67,7 @@ fn matches_may_depend_on_the_hit() {
 #[test]
 fn loops_may_end_where_the_hit_says_so() {
     let f = number_function(
-        "step c s = { z = (s.z.x ^ 2 - s.z.y ^ 2 + c.x, 2 * s.z.x * s.z.y + c.y), n = s.n + 1 }
-         out s = dot s.z s.z > 4",
+        "step c s = { z = (s.z.x ^ 2 - s.z.y ^ 2 + c.x, 2 * s.z.x * s.z.y + c.y), n = s.n + 1 }\nout s = dot s.z s.z > 4",
         "\\h -> (iterate 50 out (step h.p.xy) { z = (0, 0), n = 0 }).n",
     );
     for (x, y) in [(0.0, 0.0), (0.3, 0.5), (-0.75, 0.1), (1.0, 1.0), (-2.0, 0.0), (0.4, 0.4)] {
@@ -97,7 +96,7 @@ fn patterns_can_be_moved() {
 
 #[test]
 fn a_bump_is_a_slope() {
-    let bump = material("", "bump = \\h -> h.p.x ^ 2 + 3 * h.p.y").bump.unwrap();
+    let bump = material("", "bump = \\h -> h.p.x ^ 2 + 3 * h.p.y").bump.clone().unwrap();
     assert_eq!(at(&bump, [2.0, 5.0, 7.0]), [4.0, 3.0, 0.0]);
     assert_eq!(material("", "bump = \\h -> 7").bump, None);
 }

@@ -26,7 +26,7 @@ numbers! {
     conditions: "if 1 < 2 and not (2 < 1) then 1 else 0" => 1.0;
     or_stops_early: "if true or at 0 [] then 1 else 0" => 1.0;
     ranges_are_inclusive: "sum [1 .. 10]" => 55.0;
-    ranges_with_a_step: "sum [0, 0.1 .. 1]" => 5.5;
+    ranges_with_a_step: "sum [0, 0.5 .. 2] + 10 * count [0, 0.1 .. 1]" => 115.0;
     ranges_that_fall: "count [5, 4 .. 1]" => 5.0;
     ranges_that_are_empty: "count [3 .. 1]" => 0.0;
     comprehensions: "sum [x * y | x <- [1 .. 3], y <- [x .. 3], odd (x + y)]" => 2.0 + 6.0;
