@@ -141,21 +141,22 @@ pub(super) fn missing_brackets(root: &SyntaxNode, offset: usize) -> String {
     let mut open: Vec<(SyntaxKind, bool)> = Vec::new();
     let mut inside: Vec<(SyntaxKind, bool)> = Vec::new();
     let tokens = root.descendants_with_tokens().filter_map(|element| element.into_token());
-    let mut is_after = false;
+    // How many of those inside are open still.
+    let (mut is_after, mut depth) = (false, 0);
     for token in tokens {
         if !is_after && span_of(token.text_range()).end > offset {
             is_after = true;
             inside.clone_from(&open);
+            depth = inside.len();
         }
         match token.kind() {
             kind if kind.is_open() => open.push((kind.closing(), false)),
             kind if kind.is_close() => {
                 // It closes the nearest of its kind; those in between are closed by nothing.
                 if let Some(at) = open.iter().rposition(|(closing, _)| *closing == kind) {
-                    if is_after && at < inside.len() {
-                        if let Some(bracket) = inside.get_mut(at) {
-                            bracket.1 = true;
-                        }
+                    if is_after && at < depth {
+                        inside.iter_mut().skip(at).take(1).for_each(|bracket| bracket.1 = true);
+                        depth = at;
                     }
                     open.truncate(at);
                 }
