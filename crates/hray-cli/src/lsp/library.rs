@@ -1,7 +1,7 @@
 //! The library as files, for editors to show.
 
 use hray::ide::library_text;
-use hray::{Destination, write_text};
+use hray::{Destination, create_folder, write_text};
 use std::env;
 use std::path::PathBuf;
 
@@ -24,7 +24,7 @@ pub(crate) fn file(name: &str) -> Option<PathBuf> {
     if hray::read_source(&input).is_ok_and(|bytes| bytes == text.as_bytes()) {
         return Some(path);
     }
-    std::fs::create_dir_all(&folder).ok()?;
+    create_folder(&folder).ok()?;
     write_text(&Destination::file(&path).ok()?, text).ok()?;
     Some(path)
 }
