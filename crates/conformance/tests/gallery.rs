@@ -34,7 +34,10 @@ fn check(folder: &str, at_least: usize) {
         let name = path.file_stem().unwrap().to_string_lossy().into_owned();
         assert_eq!(file.report(false), "", "{name} has something to complain about");
         let text = std::fs::read_to_string(&path).unwrap();
-        assert_eq!(hray_lang::hry::format::format(&text).as_ref(), Ok(&text), "{name}: hray fmt lays it out otherwise");
+        match hray::format_scene(&name, text.as_bytes()) {
+            hray::Formatted::Text(formatted) => assert_eq!(formatted, text, "{name}: hray fmt lays it out otherwise"),
+            other => panic!("{name}: {other:?}"),
+        }
 
         let description = file.description().unwrap();
         let whole = description.resolution;

@@ -1,6 +1,7 @@
 //! Evaluation: what a scene's text comes to.
 
 mod common;
+mod corpus;
 mod errors;
 mod library;
 mod limits;
