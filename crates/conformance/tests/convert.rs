@@ -33,7 +33,7 @@ fn check(description: &Description, tables: &NoiseTables, renders: bool) -> Resu
 #[test]
 fn random_scenes_come_back_equal() {
     let tables = NoiseTables::default();
-    let failures: Vec<String> = (0..400)
+    let failures: Vec<String> = (0..600)
         .filter_map(|seed| {
             let description = random::description(seed)?;
             check(&description, &tables, seed % 4 == 0).err().map(|error| format!("seed {seed}: {error}"))

@@ -1,3 +1,5 @@
-//! The syntax of hry: properties of the parser and what it says about mistakes.
+//! The syntax of hry: properties of the parser and the formatter, and what is said about mistakes.
 
+mod formatter;
+mod generate;
 mod properties;

@@ -130,8 +130,8 @@ impl<'a> Machine<'a> {
             }
         }
         let numbers = numbers.get(..kind.len()).unwrap_or_default();
-        let shown = self.show(value, 60);
         let complain = |wanted: String| {
+            let shown = self.show(value, 60);
             Diagnostic::error(
                 "out-of-range",
                 format!(

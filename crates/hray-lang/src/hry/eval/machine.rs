@@ -44,7 +44,7 @@ pub(super) struct Machine<'a> {
     /// The definitions that are being worked out, each needed by the one before.
     running: Vec<(usize, usize)>,
     stack: Vec<Value>,
-    steps: u64,
+    pub(super) steps: u64,
     depth: u32,
     /// The graph that is being built while a function of a hit is evaluated.
     pub(super) graph: Option<Builder>,

@@ -22,9 +22,9 @@ pub use kind::{Hry, SyntaxElement, SyntaxKind, SyntaxNode, SyntaxToken};
 
 use super::ast::Module;
 use crate::diagnostic::{Diagnostic, Span};
-use lexer::Token;
+pub(super) use lexer::{Token, trivia};
 use std::sync::Arc;
-use tree::Node;
+pub(super) use tree::{Node, children_reversed};
 
 /// The largest text that is read, in bytes.
 const LARGEST: usize = 1 << 30;
@@ -71,6 +71,11 @@ impl Parse {
     #[must_use]
     pub fn errors(&self) -> &[Diagnostic] {
         &self.errors
+    }
+
+    /// The tokens and the nodes over them.
+    pub(super) fn parts(&self) -> (&[Token], &[Node]) {
+        (&self.tokens, &self.nodes)
     }
 
     /// The lossless tree: its text is the text that was read. Its offsets begin at 0.

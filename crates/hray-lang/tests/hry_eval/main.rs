@@ -1,0 +1,9 @@
+//! Evaluation: what a scene's text comes to.
+
+mod common;
+mod errors;
+mod library;
+mod limits;
+mod scenes;
+mod textures;
+mod values;
