@@ -15,8 +15,7 @@ const WIDTH: usize = 100;
 /// the bit (but for the sign of an offset of 0), so that the picture is the same.
 ///
 /// Materials that several objects share are definitions of their own. What only hry can say (transforms, solids,
-/// functions of a hit, other cameras, lights and integrators) and what only the classic language can say (a radius that is
-/// not positive, a plane without a direction, numbers that are not finite) give none.
+/// functions of a hit, other cameras, lights and integrators) and numbers that are not finite give none.
 #[must_use]
 pub fn convert(description: &Description) -> Option<String> {
     let scene = &description.scene;
@@ -229,12 +228,12 @@ fn object(primitive: &Primitive, materials: &Materials) -> Option<Node> {
         return None;
     }
     Some(match &primitive.shape {
-        Shape::Sphere(sphere) if sphere.radius > 0.0 => Node::call(
+        Shape::Sphere(sphere) => Node::call(
             "sphere",
             [("radius", real(sphere.radius)?), ("center", vector(sphere.center)?), ("material", material)],
         ),
         // The thesis writes n · p + d = 0, hry n · p = offset.
-        Shape::Plane(plane) if plane.normal != DVec3::ZERO => Node::call(
+        Shape::Plane(plane) => Node::call(
             "plane",
             [
                 ("normal", vector(plane.normal)?),
@@ -242,7 +241,7 @@ fn object(primitive: &Primitive, materials: &Materials) -> Option<Node> {
                 ("material", material),
             ],
         ),
-        Shape::Sphere(_) | Shape::Plane(_) | Shape::Cuboid(_) | Shape::Csg(_) => return None,
+        Shape::Cuboid(_) | Shape::Csg(_) => return None,
     })
 }
 
