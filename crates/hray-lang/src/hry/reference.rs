@@ -43,7 +43,13 @@ fn describe(constructor: &Constructor, text: &mut String) {
             Some(default) => format!("`{default}`"),
         };
         let varies = if field.varies { ", **varies**" } else { "" };
-        let _ = writeln!(text, "| `{}` | {}{varies} | {default} | {} |", field.name, takes(field), meaning(field));
+        let _ = writeln!(
+            text,
+            "| `{}` | {}{varies} | {default} | {} |",
+            field.name,
+            takes(field),
+            meaning(field)
+        );
     }
 }
 

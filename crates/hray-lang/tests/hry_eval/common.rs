@@ -73,7 +73,8 @@ pub fn number(definitions: &str, expression: &str) -> f64 {
 
 /// The material of a sphere whose `classic` has these fields.
 pub fn material(definitions: &str, fields: &str) -> Arc<Material> {
-    let text = format!("{definitions}\nscene = {{ objects = [sphere {{ material = classic {{ {fields} }} }}] }}");
+    let text =
+        format!("{definitions}\nscene = {{ objects = [sphere {{ material = classic {{ {fields} }} }}] }}");
     scene(&text).scene.primitives[0].material.clone()
 }
 

@@ -1,6 +1,6 @@
 //! Errors that only the values show, as a newcomer sees them.
 
-use crate::common::{errors, run_with, Files, shown};
+use crate::common::{Files, errors, run_with, shown};
 use hray_lang::hry::eval::Limits;
 use insta::assert_snapshot;
 

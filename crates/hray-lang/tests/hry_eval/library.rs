@@ -12,7 +12,11 @@ fn every_definition_of_the_library_has_a_type_and_documentation() {
         for definition in &module.syntax.definitions {
             let name = definition.name().unwrap().text;
             if !name.starts_with('_') {
-                assert!(definition.doc.is_some() && definition.annotation.is_some(), "{name} in {}", module.path);
+                assert!(
+                    definition.doc.is_some() && definition.annotation.is_some(),
+                    "{name} in {}",
+                    module.path
+                );
             }
         }
     }
@@ -26,7 +30,9 @@ fn every_example_of_a_constructor_makes_a_scene() {
             "scene" => example.to_owned(),
             "perspective" | "orthographic" | "window" => format!("scene = {{ camera = {example} }}"),
             "classic" => format!("scene = {{ objects = [sphere {{ material = {example} }}] }}"),
-            "point" | "ambient" | "directional" | "spotlight" => format!("scene = {{ lights = [{example}] }}"),
+            "point" | "ambient" | "directional" | "spotlight" => {
+                format!("scene = {{ lights = [{example}] }}")
+            }
             _ => format!("scene = {{ objects = [{example}] }}"),
         });
     }

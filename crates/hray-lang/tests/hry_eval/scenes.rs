@@ -48,7 +48,8 @@ fn the_innermost_paint_wins_and_groups_are_flat() {
 
 #[test]
 fn transforms_compose_in_the_order_they_are_written() {
-    let description = scene("scene = { objects = [sphere {} |> translate (1, 0, 0) |> rotate up 90deg |> scale 2] }");
+    let description =
+        scene("scene = { objects = [sphere {} |> translate (1, 0, 0) |> rotate up 90deg |> scale 2] }");
     let transform = description.scene.primitives[0].transform.as_ref().unwrap();
     let center = transform.transform_point3(DVec3::ZERO);
     assert_eq!(center, DVec3::new(0.0, 0.0, -2.0));
@@ -68,7 +69,9 @@ fn lights_and_cameras_move_too() {
 
 #[test]
 fn solids_of_groups_are_unions() {
-    let description = scene("scene = { objects = [difference (cube { size = 2 }) (group [sphere {}, sphere { radius = 0.5 }])] }");
+    let description = scene(
+        "scene = { objects = [difference (cube { size = 2 }) (group [sphere {}, sphere { radius = 0.5 }])] }",
+    );
     let Shape::Csg(csg) = &description.scene.primitives[0].shape else { panic!() };
     assert_eq!(csg.operation, CsgOperation::Difference);
     let Shape::Csg(cut) = &csg.operands[1].shape else { panic!() };
@@ -108,16 +111,22 @@ fn imports_bring_names_in() {
     ]));
     let text = "import \"lib/colors.hry\" (warm)\nimport \"all.hry\"\nimport \"lib/base.hry\" as b\nscene = { objects = [sphere { radius = radius, material = classic { color = warm } }], background = b.hot }";
     let (program, evaluated) = run_with(text, &files, 0.0, &Limits::default());
-    let description = evaluated.description.unwrap_or_else(|| panic!("{}", shown(&program, &evaluated.diagnostics)));
+    let description =
+        evaluated.description.unwrap_or_else(|| panic!("{}", shown(&program, &evaluated.diagnostics)));
     assert_eq!(description.scene.background, Background::Uniform(Rgb::new(1.0, 0.5, 0.0)));
 }
 
 #[test]
 fn imports_in_a_circle_and_outside_are_refused() {
-    let files = Files(BTreeMap::from([("a.hry", "import \"b.hry\"\nx = 1"), ("b.hry", "import \"a.hry\"\ny = 1")]));
-    let (program, evaluated) = run_with("import \"a.hry\"\nimport \"../up.hry\"\nscene = {}", &files, 0.0, &Limits::default());
+    let files =
+        Files(BTreeMap::from([("a.hry", "import \"b.hry\"\nx = 1"), ("b.hry", "import \"a.hry\"\ny = 1")]));
+    let (program, evaluated) =
+        run_with("import \"a.hry\"\nimport \"../up.hry\"\nscene = {}", &files, 0.0, &Limits::default());
     let text = shown(&program, &evaluated.diagnostics);
-    assert!(text.contains("a.hry -> b.hry -> a.hry") && text.contains("leads out of the root folder"), "{text}");
+    assert!(
+        text.contains("a.hry -> b.hry -> a.hry") && text.contains("leads out of the root folder"),
+        "{text}"
+    );
 }
 
 #[test]
@@ -134,7 +143,9 @@ fn definitions_are_set_from_outside() {
 /// Equal materials are compiled once and shared.
 #[test]
 fn a_material_is_compiled_once() {
-    let description = scene("m = classic { color = \\h -> rgb h.p.x 0 0 }\nscene = { objects = [sphere { material = m } | i <- [1 .. 3]] }");
+    let description = scene(
+        "m = classic { color = \\h -> rgb h.p.x 0 0 }\nscene = { objects = [sphere { material = m } | i <- [1 .. 3]] }",
+    );
     let [a, b, _] = &description.scene.primitives[..] else { panic!() };
     assert!(std::sync::Arc::ptr_eq(&a.material, &b.material));
 }

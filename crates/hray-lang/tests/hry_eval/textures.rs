@@ -21,7 +21,10 @@ fn at(function: &hray_core::Function, p: [f64; 3]) -> Vec<f64> {
 
 #[test]
 fn a_function_that_does_not_vary_is_a_constant() {
-    assert_eq!(material("", "color = \\h -> rgb 0.1 0.2 0.3").texture, Texture::Solid(Rgb::new(0.1, 0.2, 0.3)));
+    assert_eq!(
+        material("", "color = \\h -> rgb 0.1 0.2 0.3").texture,
+        Texture::Solid(Rgb::new(0.1, 0.2, 0.3))
+    );
     assert_eq!(material("", "reflection = \\h -> 0.5 * 0.5").reflection, Field::Constant(0.25));
 }
 
@@ -60,7 +63,10 @@ fn all_of_a_hit_is_there() {
 #[test]
 fn matches_may_depend_on_the_hit() {
     let f = number_function("", "\\h -> match floor h.p.x { 0 -> 10, 1 -> 20, _ -> 30 }");
-    assert_eq!([at(&f, [0.5, 0.0, 0.0]), at(&f, [1.5, 0.0, 0.0]), at(&f, [9.0, 0.0, 0.0])], [[10.0], [20.0], [30.0]]);
+    assert_eq!(
+        [at(&f, [0.5, 0.0, 0.0]), at(&f, [1.5, 0.0, 0.0]), at(&f, [9.0, 0.0, 0.0])],
+        [[10.0], [20.0], [30.0]]
+    );
 }
 
 /// The escape count of the Mandelbrot set, against the loop as one would write it.
@@ -104,7 +110,10 @@ fn a_bump_is_a_slope() {
 /// The textures of 2005 are written in hry; used as they are they are the integrator's own.
 #[test]
 fn the_textures_of_2005_are_recognised() {
-    let texture = material("", "color = perlinMarble { color = gold, octaves = 4, grid = 0.5, direction = (1, 0, 0), power = 3 }");
+    let texture = material(
+        "",
+        "color = perlinMarble { color = gold, octaves = 4, grid = 0.5, direction = (1, 0, 0), power = 3 }",
+    );
     assert!(matches!(texture.texture, Texture::Noise(_)), "{:?}", texture.texture);
     let wrapped = material("", "color = \\h -> perlinPlasma { grid = 2 } h");
     assert!(matches!(wrapped.texture, Texture::Function(_)));
