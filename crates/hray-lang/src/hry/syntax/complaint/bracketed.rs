@@ -85,7 +85,8 @@ impl Parser<'_> {
             S::Bar => {
                 let message = format!("`|` cannot follow here, expected `,` or `{bracket}`");
                 error(message, "not expected here")
-                    .with_help("`|` belongs in `[x | x <- list]` and `{ record | field = value }`")
+                    .with_note("`|` belongs in `[x | x <- list, x > 0]` and `{ record | field = value }`")
+                    .with_suggestion(here, ",", "what follows the first `|` is separated by commas")
             }
             _ => {
                 let message = format!("expected `,` or `{bracket}`, found {}", self.found());
@@ -139,6 +140,10 @@ impl Parser<'_> {
                 "expected a number before `..`",
             );
             self.report(error.with_help("a range is written `[0 .. 10]` or, with a step, `[0, 2 .. 10]`"));
+        } else if matches!(self.text_of(self.at), "..." | "\u{2026}") {
+            let error =
+                Diagnostic::error("list-spread", "lists are joined with `++`", here, "not a part of a list");
+            self.report(error.with_help("write `[1, 2] ++ rest`"));
         } else {
             let comma = self.span_of(self.at.saturating_sub(1));
             let error =
