@@ -110,7 +110,9 @@ pub(super) fn of_name(root: &SyntaxNode, offset: usize) -> Context {
         }
         kind if kind.is_type() => Context::Type,
         kind if kind.is_pattern() => match parent.parent() {
-            Some(definition) if at_top(&definition) => Context::Top,
+            Some(definition) if at_top(&definition) && definition.first_token().as_ref() == Some(&token) => {
+                Context::Top
+            }
             _ => Context::Nothing,
         },
         SyntaxKind::Definition | SyntaxKind::Annotation if at_top(&parent) => Context::Top,
