@@ -101,6 +101,12 @@ impl<'a> Machine<'a> {
         }
     }
 
+    /// Begins with another moment, in seconds.
+    pub(super) fn begin(&mut self, time: f64) {
+        self.time = time;
+        self.steps = 0;
+    }
+
     /// `file:line:column` of a place, the file only where it is not the scene itself.
     pub(super) fn place(&self, span: Span) -> String {
         let (file, line, column) = self.program.sources.location(span.start);
