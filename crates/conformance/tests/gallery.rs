@@ -16,7 +16,8 @@ fn root() -> PathBuf {
 /// The scenes in hry of a folder, in the order of their names. Files that others import say nothing to render.
 fn scenes(folder: &str) -> Vec<(PathBuf, SceneFile)> {
     let entries = std::fs::read_dir(root().join(folder)).unwrap().map(|entry| entry.unwrap().path());
-    let mut paths: Vec<PathBuf> = entries.filter(|path| path.extension().is_some_and(|e| e == "hry")).collect();
+    let mut paths: Vec<PathBuf> =
+        entries.filter(|path| path.extension().is_some_and(|e| e == "hry")).collect();
     paths.sort();
     let read = |path: PathBuf| {
         let file = SceneFile::read(&Input::File(path.clone()), &LoadOptions::default()).unwrap();
@@ -35,7 +36,9 @@ fn check(folder: &str, at_least: usize) {
         assert_eq!(file.report(false), "", "{name} has something to complain about");
         let text = std::fs::read_to_string(&path).unwrap();
         match hray::format_scene(&name, text.as_bytes()) {
-            hray::Formatted::Text(formatted) => assert_eq!(formatted, text, "{name}: hray fmt lays it out otherwise"),
+            hray::Formatted::Text(formatted) => {
+                assert_eq!(formatted, text, "{name}: hray fmt lays it out otherwise")
+            }
             other => panic!("{name}: {other:?}"),
         }
 

@@ -10,7 +10,7 @@ use std::sync::Arc;
 
 /// Files in memory.
 #[derive(Default)]
-pub struct Files(pub BTreeMap<&'static str, &'static str>);
+pub(crate) struct Files(pub(crate) BTreeMap<&'static str, &'static str>);
 
 impl Assets for Files {
     fn text(&self, path: &str) -> Result<String, AssetError> {
@@ -28,7 +28,7 @@ impl Assets for Files {
 }
 
 /// What a text comes to, at a time, within limits.
-pub fn run_with(text: &str, files: &Files, time: f64, limits: &Limits) -> (Program, Evaluated) {
+pub(crate) fn run_with(text: &str, files: &Files, time: f64, limits: &Limits) -> (Program, Evaluated) {
     let mut diagnostics = Vec::new();
     let program = Program::load("scene.hry", "scene.hry", text.into(), &[], files, &mut diagnostics);
     types::check(&program, &mut diagnostics);
@@ -40,30 +40,30 @@ pub fn run_with(text: &str, files: &Files, time: f64, limits: &Limits) -> (Progr
 }
 
 /// The scene that a text describes.
-pub fn scene(text: &str) -> Description {
+pub(crate) fn scene(text: &str) -> Description {
     let (program, evaluated) = run_with(text, &Files::default(), 0.0, &Limits::default());
     evaluated.description.unwrap_or_else(|| panic!("{}", shown(&program, &evaluated.diagnostics)))
 }
 
 /// The errors of a text, as a user sees them.
-pub fn errors(text: &str) -> String {
+pub(crate) fn errors(text: &str) -> String {
     errors_with(text, &Limits::default())
 }
 
 /// The errors of a text within limits.
-pub fn errors_with(text: &str, limits: &Limits) -> String {
+pub(crate) fn errors_with(text: &str, limits: &Limits) -> String {
     let (program, evaluated) = run_with(text, &Files::default(), 0.0, limits);
     assert!(evaluated.description.is_none(), "there are no errors");
     shown(&program, &evaluated.diagnostics)
 }
 
 /// Diagnostics as text.
-pub fn shown(program: &Program, diagnostics: &[Diagnostic]) -> String {
+pub(crate) fn shown(program: &Program, diagnostics: &[Diagnostic]) -> String {
     hray_lang::diagnostic::render_sources(diagnostics, &program.sources, false)
 }
 
 /// The value of a number, by way of a sphere's radius.
-pub fn number(definitions: &str, expression: &str) -> f64 {
+pub(crate) fn number(definitions: &str, expression: &str) -> f64 {
     let text = format!("{definitions}\nscene = {{ objects = [sphere {{ center = ({expression}, 0, 0) }}] }}");
     match &scene(&text).scene.primitives[0].shape {
         hray_core::Shape::Sphere(sphere) => sphere.center.x,
@@ -72,14 +72,14 @@ pub fn number(definitions: &str, expression: &str) -> f64 {
 }
 
 /// The material of a sphere whose `classic` has these fields.
-pub fn material(definitions: &str, fields: &str) -> Arc<Material> {
+pub(crate) fn material(definitions: &str, fields: &str) -> Arc<Material> {
     let text =
         format!("{definitions}\nscene = {{ objects = [sphere {{ material = classic {{ {fields} }} }}] }}");
     scene(&text).scene.primitives[0].material.clone()
 }
 
 /// The function that a colour is compiled to.
-pub fn color_function(definitions: &str, color: &str) -> Arc<Function> {
+pub(crate) fn color_function(definitions: &str, color: &str) -> Arc<Function> {
     match &material(definitions, &format!("color = {color}")).texture {
         Texture::Function(function) => function.clone(),
         other => panic!("{other:?}"),
@@ -87,7 +87,7 @@ pub fn color_function(definitions: &str, color: &str) -> Arc<Function> {
 }
 
 /// The function that a number is compiled to.
-pub fn number_function(definitions: &str, number: &str) -> Arc<Function> {
+pub(crate) fn number_function(definitions: &str, number: &str) -> Arc<Function> {
     match &material(definitions, &format!("reflection = {number}")).reflection {
         Field::Function(function) => function.clone(),
         other => panic!("{other:?}"),

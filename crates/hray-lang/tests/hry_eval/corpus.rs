@@ -42,7 +42,10 @@ fn scenes_that_end_early_are_refused_in_order() {
 #[test]
 fn scenes_with_damage_are_refused_in_order() {
     for text in texts() {
-        for at in (0..text.len()).step_by(7).filter(|at| text.is_char_boundary(*at) && text.is_char_boundary(at + 1)) {
+        for at in (0..text.len())
+            .step_by(7)
+            .filter(|at| text.is_char_boundary(*at) && text.is_char_boundary(at + 1))
+        {
             survives(&format!("{}{}", &text[..at], &text[at + 1..]));
             for insert in ["(", "}", "\n", " -", "=", "\"", "{ p", "|>"] {
                 survives(&format!("{}{insert}{}", &text[..at], &text[at..]));

@@ -1,5 +1,7 @@
 //! Evaluation: what a scene's text comes to.
 
+#![allow(clippy::unwrap_used, clippy::panic, reason = "tests may fail loudly")]
+
 mod common;
 mod corpus;
 mod errors;
