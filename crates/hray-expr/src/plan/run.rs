@@ -219,7 +219,7 @@ fn point<S: Simd>(simd: S, [x, y, z]: [&[Line]; 3], line: usize, k: usize) -> Ve
 fn sum_of_noise<S: Simd>(simd: S, tables: &Tables, noise: &NoiseOp, file: &File<'_>, out: &mut [Line]) {
     let p = [file.get(noise.p[0]), file.get(noise.p[1]), file.get(noise.p[2])];
     let improved = tables.improved.get(noise.table);
-    for line in 0..out.len() {
+    for (line, out) in out.iter_mut().enumerate() {
         let mut k = 0;
         while k < MAX_LANES {
             let at = point(simd, p, line, k);
@@ -232,7 +232,7 @@ fn sum_of_noise<S: Simd>(simd: S, tables: &Tables, noise: &NoiseOp, file: &File<
                 (NoiseKind::Improved, Some(table)) => sum_of_improved(simd, table, noise, at, sum),
                 _ => sum_of_classic(simd, &tables.classic, noise, at, sum),
             };
-            total.store_slice(out[line].part::<S>(k));
+            total.store_slice(out.part::<S>(k));
             k += Lanes::<S>::LEN;
         }
     }
