@@ -15,7 +15,7 @@ use std::hint::black_box;
 
 /// Points of a row, over 4 units.
 const ACROSS: usize = 512;
-const POINTS: usize = 16 * ACROSS;
+const POINTS: usize = 4 * ACROSS;
 
 /// Points on a plane, row by row.
 fn rows() -> [Vec<f64>; 3] {

@@ -124,7 +124,7 @@ mod tests {
     /// What the reference implementation prints.
     #[test]
     fn improved_noise_is_the_published_one() {
-        assert_eq!(improved_noise(0, [3.14, 42.0, 7.0]), 0.136_919_958_784_000_12);
+        assert_eq!(improved_noise(0, [157.0 / 50.0, 42.0, 7.0]), 0.136_919_958_784_000_12);
     }
 
     #[test]

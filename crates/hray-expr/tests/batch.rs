@@ -1,5 +1,7 @@
 //! A plan gives what the definition gives, to the bit, at every instruction set and for any number of points.
 
+#![allow(clippy::unwrap_used, reason = "a test may fail loudly")]
+
 use fearless_simd::Level;
 use hray_expr::{Binary, Block, Builder, Function, Image, Input, NodeId, NoiseKind, NoiseTables};
 use hray_expr::{Plan, PlanScratch, Unary};
@@ -181,7 +183,7 @@ impl Maker {
                 }
                 Step::Octave { classic, absolute, octave, p, sum } => {
                     let (p, sum) = (p.each_ref().map(at), at(sum));
-                    let scale = b.constant(f64::from(*octave).exp2()).unwrap();
+                    let scale = b.constant(libm::exp2(f64::from(*octave))).unwrap();
                     let p = p.map(|a| b.binary(Binary::Mul, a, scale).unwrap());
                     let n = b.noise(kind(*classic), 1, p).unwrap();
                     let n = if *absolute { b.unary(Unary::Abs, n).unwrap() } else { n };

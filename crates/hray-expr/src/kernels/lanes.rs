@@ -28,6 +28,7 @@ pub struct Vec3<S: Simd> {
     pub z: Lanes<S>,
 }
 
+#[allow(clippy::should_implement_trait, reason = "named alike, but always inlined and for one type each")]
 impl<S: Simd> Vec3<S> {
     /// The same three numbers in every lane.
     #[inline(always)]

@@ -81,17 +81,23 @@ impl Noise {
         Self { permutations: seeds.iter().map(pairs).collect(), gradients }
     }
 
-    /// Noise at points given in cells.
+    /// Noise at one point given in cells, in the bits of [`crate::classic_noise`].
+    #[must_use]
+    pub fn at(&self, table: usize, p: [f64; 3]) -> f64 {
+        self.noise_one(table, p)
+    }
+
+    /// Noise at points given in cells, which must be [ordinary](Self::are_ordinary).
     #[inline(always)]
-    pub fn noise<S: Simd>(&self, simd: S, table: usize, p: Vec3<S>) -> Lanes<S> {
-        if (fits::<S>(p.x, 1.0) & fits::<S>(p.y, 1.0) & fits::<S>(p.z, 1.0)).all_true() {
-            return self.noise_lanes(simd, table, p);
-        }
-        let mut result = [0.0; MAX_LANES];
-        for (lane, result) in result.iter_mut().enumerate().take(Lanes::<S>::LEN) {
-            *result = self.noise_one(table, [p.x[lane], p.y[lane], p.z[lane]]);
-        }
-        Lanes::<S>::from_slice(simd, &result[..Lanes::<S>::LEN])
+    pub fn ordinary<S: Simd>(&self, simd: S, table: usize, p: Vec3<S>) -> Lanes<S> {
+        self.noise_lanes(simd, table, p)
+    }
+
+    /// Whether no coordinate of the points, times a number up to `most` in magnitude, is too large to have a cell.
+    #[inline(always)]
+    pub fn are_ordinary<S: Simd>(p: Vec3<S>, most: f64) -> bool {
+        let [x, y, z] = [p.x.abs() * most, p.y.abs() * most, p.z.abs() * most];
+        (x.simd_lt(EXACT_CELLS) & y.simd_lt(EXACT_CELLS) & z.simd_lt(EXACT_CELLS)).all_true()
     }
 
     /// The edges of a cell, from the low bytes of `key`: x, y, z.

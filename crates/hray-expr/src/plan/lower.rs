@@ -141,7 +141,13 @@ impl<'a> Lowering<'a> {
     /// The operations so far, which are taken out.
     pub(super) fn take_ops(&mut self) -> Vec<Op> {
         self.noises.clear();
-        std::mem::take(&mut self.ops).into_iter().flatten().collect()
+        let mut ops: Vec<_> = std::mem::take(&mut self.ops).into_iter().flatten().collect();
+        ops.iter_mut().for_each(|op| {
+            if let Op::Noise(noise) = op {
+                noise.largest = noise.terms.iter().map(|term| term.scale.abs()).fold(0.0, f64::max);
+            }
+        });
+        ops
     }
 
     /// A register with the value of a node.
@@ -241,7 +247,7 @@ impl<'a> Lowering<'a> {
         let scaled = p.map(|a| self.register(a));
         let (p, scale) = self.unscaled(p).unwrap_or((scaled, 1.0));
         let terms = vec![Term { scale, weight: 1.0 }];
-        let noise = NoiseOp { kind, table, p, absolute: false, terms, sum: None, out: 0 };
+        let noise = NoiseOp { kind, table, p, absolute: false, terms, largest: 0.0, sum: None, out: 0 };
         self.push_noise(id, (noise, scaled))
     }
 

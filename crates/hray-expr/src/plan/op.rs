@@ -71,6 +71,8 @@ pub(super) struct NoiseOp {
     pub(super) p: [Register; 3],
     pub(super) absolute: bool,
     pub(super) terms: Vec<Term>,
+    /// The largest scale of its terms, by magnitude.
+    pub(super) largest: f64,
     pub(super) sum: Option<Operand>,
     pub(super) out: Register,
 }

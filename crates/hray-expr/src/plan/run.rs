@@ -1,7 +1,7 @@
 //! Running operations on registers.
 
 use super::each::{self, Left, Power, Right, Second, Third, Three, Two, each1, each2, each3};
-use super::op::{LoopOp, NoiseOp, Op, Operand, Register};
+use super::op::{LoopOp, NoiseOp, Op, Operand, Register, Term};
 use crate::kernels::cells::cells;
 use crate::kernels::improved::Improved;
 use crate::kernels::lanes::{Lanes, MAX_LANES, Mask, Vec3};
@@ -218,68 +218,95 @@ fn point<S: Simd>(simd: S, [x, y, z]: [&[Line]; 3], line: usize, k: usize) -> Ve
 #[inline(always)]
 fn sum_of_noise<S: Simd>(simd: S, tables: &Tables, noise: &NoiseOp, file: &File<'_>, out: &mut [Line]) {
     let p = [file.get(noise.p[0]), file.get(noise.p[1]), file.get(noise.p[2])];
-    let Some((first, rest)) = noise.terms.split_first() else { return };
-    match noise.kind {
-        NoiseKind::Improved => {
-            let Some(table) = tables.improved.get(noise.table) else { return };
-            for line in 0..out.len() {
-                let mut k = 0;
-                while k < MAX_LANES {
-                    let p = point(simd, p, line, k);
-                    let mut total = table.noise(simd, p.scale(Lanes::<S>::splat(simd, first.scale)));
-                    total = weighed::<S>(total, noise.absolute, first.weight);
-                    total = started(simd, total, noise.sum, file, line, k);
-                    for term in rest {
-                        let n = table.noise(simd, p.scale(Lanes::<S>::splat(simd, term.scale)));
-                        total += weighed::<S>(n, noise.absolute, term.weight);
-                    }
-                    total.store_slice(out[line].part::<S>(k));
-                    k += Lanes::<S>::LEN;
-                }
-            }
-        }
-        NoiseKind::Classic => {
-            for line in 0..out.len() {
-                let mut k = 0;
-                while k < MAX_LANES {
-                    let p = point(simd, p, line, k);
-                    let scaled = p.scale(Lanes::<S>::splat(simd, first.scale));
-                    let mut total = tables.classic.noise(simd, noise.table, scaled);
-                    total = weighed::<S>(total, noise.absolute, first.weight);
-                    total = started(simd, total, noise.sum, file, line, k);
-                    for term in rest {
-                        let scaled = p.scale(Lanes::<S>::splat(simd, term.scale));
-                        let n = tables.classic.noise(simd, noise.table, scaled);
-                        total += weighed::<S>(n, noise.absolute, term.weight);
-                    }
-                    total.store_slice(out[line].part::<S>(k));
-                    k += Lanes::<S>::LEN;
-                }
-            }
+    let improved = tables.improved.get(noise.table);
+    for (line, out) in out.iter_mut().enumerate() {
+        let mut k = 0;
+        while k < MAX_LANES {
+            let at = point(simd, p, line, k);
+            let sum = match noise.sum {
+                None => None,
+                Some(Operand::Constant(v)) => Some(Lanes::<S>::splat(simd, v)),
+                Some(Operand::Register(register)) => Some(file.get(register)[line].load(simd, k)),
+            };
+            let total = match (noise.kind, improved) {
+                (NoiseKind::Improved, Some(table)) => sum_of_improved(simd, table, noise, at, sum),
+                _ => sum_of_classic(simd, &tables.classic, noise, at, sum),
+            };
+            total.store_slice(out.part::<S>(k));
+            k += Lanes::<S>::LEN;
         }
     }
 }
 
 #[inline(always)]
-fn weighed<S: Simd>(n: Lanes<S>, absolute: bool, weight: f64) -> Lanes<S> {
-    (if absolute { n.abs() } else { n }) * weight
-}
-
-/// The sum that the noise is added to, and its first term.
-#[inline(always)]
-fn started<S: Simd>(
+fn sum_of_improved<S: Simd>(
     simd: S,
-    first: Lanes<S>,
-    sum: Option<Operand>,
-    file: &File<'_>,
-    line: usize,
-    k: usize,
+    table: &Improved,
+    noise: &NoiseOp,
+    p: Vec3<S>,
+    mut sum: Option<Lanes<S>>,
 ) -> Lanes<S> {
-    match sum {
-        None => first,
-        Some(Operand::Constant(v)) => first + v,
-        Some(Operand::Register(register)) => file.get(register)[line].load(simd, k) + first,
+    for term in &noise.terms {
+        let n = table.noise(simd, p.scale(Lanes::<S>::splat(simd, term.scale)));
+        sum = Some(plus::<S>(sum, n, noise.absolute, term.weight));
     }
+    sum.unwrap_or(Lanes::<S>::splat(simd, 0.0))
+}
+
+#[inline(always)]
+fn sum_of_classic<S: Simd>(
+    simd: S,
+    table: &Noise,
+    noise: &NoiseOp,
+    p: Vec3<S>,
+    mut sum: Option<Lanes<S>>,
+) -> Lanes<S> {
+    if !Noise::are_ordinary::<S>(p, noise.largest) {
+        return one_by_one_classic(simd, table, noise, p, sum);
+    }
+    for term in &noise.terms {
+        let n = table.ordinary(simd, noise.table, p.scale(Lanes::<S>::splat(simd, term.scale)));
+        sum = Some(plus::<S>(sum, n, noise.absolute, term.weight));
+    }
+    sum.unwrap_or(Lanes::<S>::splat(simd, 0.0))
+}
+
+/// One more term of a sum, which may be the first.
+#[inline(always)]
+fn plus<S: Simd>(sum: Option<Lanes<S>>, n: Lanes<S>, absolute: bool, weight: f64) -> Lanes<S> {
+    let term = (if absolute { n.abs() } else { n }) * weight;
+    match sum {
+        None => term,
+        Some(sum) => sum + term,
+    }
+}
+
+#[inline(always)]
+fn one_by_one_classic<S: Simd>(
+    simd: S,
+    table: &Noise,
+    noise: &NoiseOp,
+    p: Vec3<S>,
+    sum: Option<Lanes<S>>,
+) -> Lanes<S> {
+    let mut result = [0.0; MAX_LANES];
+    for lane in 0..Lanes::<S>::LEN {
+        let sum = sum.map(|sum| sum[lane]);
+        result[lane] = one_sum_of_classic(table, noise, [p.x[lane], p.y[lane], p.z[lane]], sum);
+    }
+    Lanes::<S>::from_slice(simd, &result[..Lanes::<S>::LEN])
+}
+
+/// The sum at one point, whose coordinates lanes cannot take.
+#[cold]
+#[inline(never)]
+fn one_sum_of_classic(table: &Noise, noise: &NoiseOp, p: [f64; 3], mut sum: Option<f64>) -> f64 {
+    for Term { scale, weight } in &noise.terms {
+        let n = table.at(noise.table, p.map(|v| v * scale));
+        let term = (if noise.absolute { n.abs() } else { n }) * weight;
+        sum = Some(sum.map_or(term, |sum| sum + term));
+    }
+    sum.unwrap_or(0.0)
 }
 
 #[inline(always)]
