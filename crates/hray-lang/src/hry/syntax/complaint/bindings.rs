@@ -275,7 +275,7 @@ impl Parser<'_> {
         match self.current {
             SyntaxKind::Semicolon => {
                 let error = error(";");
-                let is_last = !self.tokens.get(self.at + 1).is_some_and(|next| !next.starts_line)
+                let is_last = self.tokens.get(self.at + 1).is_none_or(|next| next.starts_line)
                     || self.kind_ahead(1) == SyntaxKind::InKeyword;
                 let error = if is_last {
                     error.with_suggestion(here, "", "remove it")
