@@ -6,8 +6,8 @@
 pub mod random;
 
 use hray::{
-    Background, Camera, Control, Description, Field, Light, NoiseTables, NoiseTexture, Options,
-    PictureFormat, Rgb, Scene, Shape, Texture,
+    Background, Camera, Control, Description, Field, Light, LintLevels, NoiseTables, NoiseTexture, Options,
+    PictureFormat, Rgb, Scene, SceneFile, Shape, Texture,
 };
 use hray_model as model;
 use sha2::{Digest, Sha256};
@@ -164,11 +164,34 @@ pub fn recorded(folder: &Path) -> Result<Vec<(String, String)>, String> {
 /// Where the scene does not load or render.
 pub fn p3_hash(scene: &Path, tables: &NoiseTables) -> Result<String, String> {
     let say = |error: hray::Error| format!("{}: {error}", scene.display());
-    let description = hray::load(scene).map_err(say)?;
+    p3_hash_of(&hray::load(scene).map_err(say)?, tables).map_err(say)
+}
+
+/// The same for a scene in memory.
+///
+/// # Errors
+/// Where it does not render.
+pub fn p3_hash_of(description: &Description, tables: &NoiseTables) -> Result<String, hray::Error> {
     let options = Options { noise_tables: tables.clone(), ..Options::default() };
-    let (bytes, _) = hray::render_to_bytes(&description, &options, PictureFormat::PpmAscii, &Control::new())
-        .map_err(say)?;
+    let format = PictureFormat::PpmAscii;
+    let (bytes, _) = hray::render_to_bytes(description, &options, format, &Control::new())?;
     Ok(format!("{:x}", Sha256::digest(&bytes)))
+}
+
+/// The same for what a classic scene file becomes in hry; none where hry cannot say it.
+///
+/// # Errors
+/// Where the scene does not load or render, in either language, or is not the same scene in hry.
+pub fn converted_p3_hash(scene: &Path, tables: &NoiseTables) -> Result<Option<String>, String> {
+    let say = |error: hray::Error| format!("{}: {error}", scene.display());
+    let description = hray::load(scene).map_err(say)?;
+    let Some(text) = hray::convert(&description) else { return Ok(None) };
+    let file = SceneFile::parse("converted.hry", text.into_bytes(), &LintLevels::default());
+    let Some(converted) = file.description() else { return Err(file.report(false)) };
+    if *converted != description {
+        return Err(format!("{} is another scene in hry", scene.display()));
+    }
+    p3_hash_of(converted, tables).map(Some).map_err(say)
 }
 
 /// Renders a scene by both and compares every component of every pixel, bit by bit.

@@ -1,7 +1,8 @@
 //! The command line, as clap reads it.
 
 use crate::lint_args::LintArgs;
-use crate::values::{self, Depth};
+use crate::scene_args::SceneArgs;
+use crate::values::{self, Depth, Frames};
 use clap::{Args, Parser, Subcommand};
 use clap_complete::Shell;
 use hray::{PictureFormat, Resolution};
@@ -13,6 +14,7 @@ const AFTER_HELP: &str = "\
 Examples:
   hray render scene.hry                    writes scene.png
   hray render scene.hry -o big.exr --size 3840x2160 --samples 16
+  hray render orbit.hry --frames 0..47 -o orbit.gif
   hray check scene.hry                     says what is wrong with it
   hray scene.hry scene.ppm                 the classic form
 
@@ -44,6 +46,19 @@ pub(crate) enum Command {
     Check(CheckArgs),
     /// Show what is in a scene
     Info(InfoArgs),
+    /// Lay out scenes in hry in the one common style
+    Fmt(FmtArgs),
+    /// Turn a classic scene into one in hry that gives the same picture
+    Convert(ConvertArgs),
+    /// Answer an editor: a language server on the standard input and output
+    #[command(
+        after_help = "Editors start it; see editors/vscode/README.md for how to tell them.\nThe protocol is the Language Server Protocol 3.17."
+    )]
+    Lsp {
+        /// Ignored: there is no other way to talk
+        #[arg(long, hide = true)]
+        stdio: bool,
+    },
     /// Print a script that lets a shell complete the commands and options
     #[command(
         after_help = "For example, for bash:\n  hray completions bash > ~/.local/share/bash-completion/completions/hray"
@@ -97,7 +112,8 @@ pub(crate) struct RenderArgs {
     /// The picture, or - for the standard output [default: the input's name with .png, beside it]
     ///
     /// The extension tells the format, see --format. The file appears when it is complete; an older one of that
-    /// name is untouched until then.
+    /// name is untouched until then. With --frames, `####` in the name stands for the number of the frame (and its
+    /// folder is made where it is missing); a .gif, .apng or .webp without it holds the whole animation.
     #[arg(short, long)]
     pub output: Option<PathBuf>,
     /// The size of the picture, instead of the scene's; the camera's window stays
@@ -106,7 +122,8 @@ pub(crate) struct RenderArgs {
     /// How many times a ray may be reflected or refracted, -1 to 10000, instead of the scene's number
     #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = values::depth)]
     pub depth: Option<Depth>,
-    /// Samples a pixel, 1 to 65536: more give smoother edges [default: 1, as in 2005]
+    /// Samples a pixel, 1 to 65536: more give smoother edges [default: the scene's; 16 in hry where it says
+    /// nothing, 1 in classic scenes]
     #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = values::samples)]
     pub samples: Option<NonZeroU32>,
     /// Render only a part: X,Y is its upper left pixel, counted from the upper left
@@ -123,17 +140,43 @@ pub(crate) struct RenderArgs {
     /// No progress bar and no summary; warnings and errors are still shown
     #[arg(short, long)]
     pub quiet: bool,
+    /// The moment to show of a scene that is a function of the time [default: 0]
+    #[arg(long, value_name = "SECONDS", allow_negative_numbers = true, value_parser = values::seconds,
+        conflicts_with_all = ["frame", "frames"], help_heading = "Animations")]
+    pub time: Option<f64>,
+    /// Render frames A to B, both included: frame 0 shows the moment 0
+    #[arg(long, value_name = "A..B", allow_hyphen_values = true, value_parser = values::frames,
+        help_heading = "Animations")]
+    pub frames: Option<Frames>,
+    /// Render one frame, as --frames would
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = values::frame,
+        conflicts_with = "frames", help_heading = "Animations")]
+    pub frame: Option<u32>,
+    /// Frames a second [default: 24]
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = values::fps,
+        help_heading = "Animations")]
+    pub fps: Option<f64>,
+    #[command(flatten)]
+    pub scene: SceneArgs,
     #[command(flatten)]
     pub lints: LintArgs,
 }
 
 /// `hray check`.
 #[derive(Args, Debug)]
-#[command(after_long_help = crate::lint_args::list())]
+#[command(after_long_help = crate::check::after_help())]
 pub(crate) struct CheckArgs {
     /// The scene files, or - for the standard input
     #[arg(required = true, value_name = "INPUT")]
     pub inputs: Vec<PathBuf>,
+    /// Write JSON, for programs
+    #[arg(long)]
+    pub json: bool,
+    /// The moment to check of a scene that is a function of the time [default: 0]
+    #[arg(long, value_name = "SECONDS", allow_negative_numbers = true, value_parser = values::seconds)]
+    pub time: Option<f64>,
+    #[command(flatten)]
+    pub scene: SceneArgs,
     #[command(flatten)]
     pub lints: LintArgs,
 }
@@ -146,4 +189,36 @@ pub(crate) struct InfoArgs {
     /// Write JSON, for programs
     #[arg(long)]
     pub json: bool,
+    /// The moment to look at of a scene that is a function of the time [default: 0]
+    #[arg(long, value_name = "SECONDS", allow_negative_numbers = true, value_parser = values::seconds)]
+    pub time: Option<f64>,
+    #[command(flatten)]
+    pub scene: SceneArgs,
+}
+
+/// `hray fmt`.
+#[derive(Args, Debug)]
+#[command(
+    after_help = "A file is written only where that changes it, and then whole or not at all. Exit code 1: with \
+                        --check, files that are laid out differently; a file that cannot be read, or has errors that \
+                        leave its layout unclear."
+)]
+pub(crate) struct FmtArgs {
+    /// The scene files, or - for the standard input, which goes to the standard output
+    #[arg(required = true, value_name = "FILE")]
+    pub inputs: Vec<PathBuf>,
+    /// Write nothing, and list the files that would change
+    #[arg(long)]
+    pub check: bool,
+}
+
+/// `hray convert`.
+#[derive(Args, Debug)]
+pub(crate) struct ConvertArgs {
+    /// The classic scene, or - for the standard input
+    #[arg(value_name = "OLD.hry")]
+    pub input: PathBuf,
+    /// The new scene, or - for the standard output, which is the default
+    #[arg(short, long, value_name = "NEW.hry")]
+    pub output: Option<PathBuf>,
 }

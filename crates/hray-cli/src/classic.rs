@@ -5,7 +5,7 @@ use crate::console::Console;
 use crate::failure::Failure;
 use crate::job::{self, Job};
 use clap::CommandFactory;
-use hray::{Destination, Input, Options, PictureFormat, Quoted};
+use hray::{Destination, Input, LoadOptions, Options, PictureFormat, Quoted};
 use std::ffi::OsStr;
 use std::path::Path;
 use std::time::Duration;
@@ -36,13 +36,15 @@ pub(crate) fn run(arguments: &ClassicArgs, console: &Console) -> Result<(), Fail
     let source = Input::from_argument(input.clone());
     job::check_not_an_input(output, &source, &arguments.common)?;
     let destination = Destination::file(output).map_err(hray::Error::from)?;
-    let description = job::read_scene(&source, &arguments.lints.levels, console)?;
+    let load = LoadOptions { levels: arguments.lints.levels.clone(), ..LoadOptions::default() };
+    let file = job::read_scene(&source, &load, console)?;
+    job::check_not_imported(output, &file)?;
     let noise_tables = job::noise_tables(&arguments.common)?;
     let options = Options { threads: arguments.common.threads, noise_tables, ..Options::default() };
 
     let format = PictureFormat::PpmAscii;
-    let job =
-        Job { description: &description, options: &options, destination: &destination, name: output, format };
+    let description = job::description(&file)?;
+    let job = Job { description, options: &options, destination: &destination, name: output, format };
     let (_, time) = job.run(console, false)?;
     let text = format!(
         "Image output written to {} in PPM format\nTime needed to render the image: {}\n",

@@ -24,6 +24,11 @@ fn hint(error: &Error, arguments: &[OsString]) -> Option<String> {
     let is_command = |name: &OsString| cli.get_subcommands().any(|command| name == command.get_name());
     match arguments.iter().find(|argument| is_command(argument)) {
         Some(command) if command == "render" && !unknown.starts_with('-') => Some(second_name(unknown)),
+        Some(command) if command == "convert" && !unknown.starts_with('-') => Some(format!(
+            "unexpected argument {}; to name the new scene write `-o {}`",
+            Quoted(Path::new(unknown)),
+            unknown.escape_debug()
+        )),
         Some(_) => None,
         None => {
             let render = cli.find_subcommand("render")?;

@@ -4,49 +4,66 @@ use crate::args::InfoArgs;
 use crate::console::Console;
 use crate::failure::Failure;
 use crate::summary::{counted, grouped};
-use hray::{CameraSummary, Error, Input, LintLevels, Objects, SceneFile, Summary, WorstCase};
+use hray::{CameraSummary, Error, Input, Language, LintLevels, Objects, SceneFile, Summary, WorstCase};
 use std::fmt::Write;
 
 /// Shows what is in a scene.
 pub(crate) fn run(arguments: &InfoArgs, console: &Console) -> Result<(), Failure> {
     let input = Input::from_argument(arguments.input.clone());
-    let file = SceneFile::read(&input, &LintLevels::default()).map_err(Error::from)?;
-    let warnings = file.warnings();
+    let load = arguments.scene.options(&LintLevels::default(), arguments.time.unwrap_or(0.0));
+    let file = SceneFile::read(&input, &load).map_err(Error::from)?;
     let Some(description) = file.description() else {
         console.say(file.report(console.has_color()));
         return Err(Failure::Told);
     };
     let summary = Summary::of(description);
     let text = if arguments.json {
-        json(&input.name(), &summary, warnings)?
+        json(&input.name(), &summary, &file)?
     } else {
         // Writing to a string cannot fail.
         let mut text = String::new();
-        let _ = write_text(&mut text, &summary, warnings);
+        let _ = write_text(&mut text, &summary, &file);
         text
     };
     console.print(text.as_bytes()).map_err(|error| Failure::stdout(&error))
 }
 
-fn json(name: &str, summary: &Summary, warnings: usize) -> Result<String, Failure> {
+fn json(name: &str, summary: &Summary, file: &SceneFile) -> Result<String, Failure> {
     let mut value = serde_json::to_value(summary)
         .map_err(|error| Failure::Wrong(format!("cannot write JSON: {error}")))?;
     if let Some(object) = value.as_object_mut() {
         object.insert("name".to_owned(), name.into());
-        object.insert("warnings".to_owned(), warnings.into());
+        object.insert("language".to_owned(), language(file).into());
+        object.insert("animated".to_owned(), file.is_animated().into());
+        object.insert("warnings".to_owned(), file.warnings().into());
     }
     Ok(format!("{value:#}\n"))
 }
 
-fn write_text(out: &mut String, summary: &Summary, warnings: usize) -> std::fmt::Result {
+fn language(file: &SceneFile) -> &'static str {
+    match file.language() {
+        Language::Classic => "classic",
+        Language::Hry => "hry",
+    }
+}
+
+fn write_text(out: &mut String, summary: &Summary, file: &SceneFile) -> std::fmt::Result {
     let Summary { width, height, max_depth, samples, background, materials, .. } = summary;
     let background = background.map_or_else(|| "a function of the direction".to_owned(), triple);
     let lights = light_kinds(summary);
     let all_lights: usize = lights.iter().map(|(_, count)| count).sum();
     writeln!(out, "resolution   {width} x {height} ({} pixels)", grouped(summary.pixels()))?;
     writeln!(out, "depth        {max_depth}")?;
-    if *samples != 1 {
+    let is_hry = file.language() == Language::Hry;
+    if is_hry || *samples != 1 {
         writeln!(out, "samples      {samples} a pixel")?;
+    }
+    if is_hry {
+        writeln!(out, "integrator   {}", summary.integrator)?;
+        writeln!(out, "encoding     {}", summary.encoding)?;
+    }
+    if file.is_animated() {
+        writeln!(out, "time         {} s (the scene is a function of the time)", summary.time)?;
     }
     writeln!(out, "camera       {}", camera(&summary.camera))?;
     writeln!(out, "background   {background}")?;
@@ -69,7 +86,7 @@ fn write_text(out: &mut String, summary: &Summary, warnings: usize) -> std::fmt:
         writeln!(out, "spheres in   {} to {}", triple(bounds.min), triple(bounds.max))?;
     }
     writeln!(out, "worst case   {}", worst_case(&summary.worst_case))?;
-    match warnings {
+    match file.warnings() {
         0 => writeln!(out, "warnings     none"),
         n => writeln!(out, "warnings     {n} (`hray check` shows them)"),
     }

@@ -5,22 +5,27 @@ use crate::console::Console;
 use crate::failure::Failure;
 use crate::{interrupt, progress};
 use hray::{
-    Control, Description, Destination, Error, Input, LintLevels, NoiseTables, Options, PictureFormat, Quoted,
-    SceneFile, Statistics,
+    Control, Description, Destination, Error, Input, LoadOptions, NoiseTables, Options, PictureFormat,
+    Quoted, SceneFile, Statistics,
 };
 use std::path::Path;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-/// Reads a scene and shows its diagnostics.
+/// Reads a scene without errors and shows its warnings.
 pub(crate) fn read_scene(
     input: &Input,
-    levels: &LintLevels,
+    options: &LoadOptions,
     console: &Console,
-) -> Result<Description, Failure> {
-    let file = SceneFile::read(input, levels).map_err(Error::from)?;
+) -> Result<SceneFile, Failure> {
+    let file = SceneFile::read(input, options).map_err(Error::from)?;
     console.say(report(&file, console));
-    Ok(file.into_description().map_err(Error::from)?)
+    if file.description().is_some() { Ok(file) } else { Err(Failure::Told) }
+}
+
+/// What a scene without errors describes.
+pub(crate) fn description(file: &SceneFile) -> Result<&Description, Failure> {
+    file.description().ok_or(Failure::Told)
 }
 
 /// The diagnostics of a scene, and an empty line to set them off from what follows.
@@ -42,17 +47,27 @@ pub(crate) fn noise_tables(common: &CommonArgs) -> Result<NoiseTables, Failure> 
 
 /// Refuses to replace what the picture is made from.
 pub(crate) fn check_not_an_input(output: &Path, input: &Input, common: &CommonArgs) -> Result<(), Failure> {
-    let refuse = |what: &str| {
-        let output = Quoted(output);
-        Err(Failure::Usage(format!("the picture would replace {what} {output}; choose another name for it")))
-    };
     if hray::same_file(output, input.path()) {
-        refuse("the scene")
+        Err(would_replace(output, "the scene"))
     } else if common.noise_tables.as_ref().is_some_and(|tables| hray::same_file(output, tables)) {
-        refuse("the noise tables")
+        Err(would_replace(output, "the noise tables"))
     } else {
         Ok(())
     }
+}
+
+/// Refuses to replace a file that the scene imports.
+pub(crate) fn check_not_imported(output: &Path, file: &SceneFile) -> Result<(), Failure> {
+    let mut imported = file.sources().files().iter().skip(1);
+    if imported.any(|source| hray::same_file(output, Path::new(&source.name))) {
+        return Err(would_replace(output, "a file that the scene imports,"));
+    }
+    Ok(())
+}
+
+fn would_replace(output: &Path, what: &str) -> Failure {
+    let output = Quoted(output);
+    Failure::Usage(format!("the picture would replace {what} {output}; choose another name for it"))
 }
 
 /// A picture to be made.

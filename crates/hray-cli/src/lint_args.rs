@@ -2,7 +2,7 @@
 
 use clap::builder::PossibleValuesParser;
 use clap::{Arg, ArgAction, ArgMatches, Args, Command, Error, FromArgMatches};
-use hray::{ALL_LINTS, LINTS, Level, LintLevels};
+use hray::{ALL_LINTS, CLASSIC_LINTS, LINTS, Level, Lint, LintLevels};
 use std::fmt::Write;
 
 const FLAGS: [(&str, Level, &str); 3] = [
@@ -69,8 +69,16 @@ impl Args for LintArgs {
 
 /// All warnings, for the end of a help text.
 pub(crate) fn list() -> String {
-    let mut text = String::from("Warnings that can be allowed, and denied, by their codes:\n");
-    for lint in LINTS {
+    let mut text =
+        String::from("Warnings that can be allowed, and denied, by their codes.\n\nIn scenes in hry:\n");
+    describe(&mut text, hray::hry_lints());
+    text.push_str("\nIn classic scenes:\n");
+    describe(&mut text, CLASSIC_LINTS);
+    text
+}
+
+fn describe(text: &mut String, lints: &[Lint]) {
+    for lint in lints {
         // Writing to a string cannot fail.
         let _ = write!(text, "\n  {}\n", lint.code);
         let mut line = String::from("     ");
@@ -86,5 +94,4 @@ pub(crate) fn list() -> String {
         text.push_str(&line);
         text.push('\n');
     }
-    text
 }

@@ -6,19 +6,25 @@
 //! Exit codes: 0 where all went well; 1 where the input is wrong, or something could not be read or written;
 //! 2 where the command line is wrong; 130 after Ctrl-C.
 
+mod animate;
 mod args;
 mod check;
 mod classic;
 mod console;
+mod convert;
 mod failure;
+mod fmt;
 mod generate;
 mod hints;
 mod info;
 mod interrupt;
 mod job;
 mod lint_args;
+mod lsp;
+mod pattern;
 mod progress;
 mod render;
+mod scene_args;
 mod summary;
 mod values;
 
@@ -43,6 +49,9 @@ fn run(console: &Console) -> Result<(), Failure> {
         Some(Command::Render(arguments)) => render::run(arguments, console),
         Some(Command::Check(arguments)) => check::run(arguments, console),
         Some(Command::Info(arguments)) => info::run(arguments, console),
+        Some(Command::Fmt(arguments)) => fmt::run(arguments, console),
+        Some(Command::Convert(arguments)) => convert::run(arguments, console),
+        Some(Command::Lsp { .. }) => lsp::run(),
         Some(Command::Completions { shell }) => generate::completions(*shell, console),
         Some(Command::Man { command }) => generate::man(command.as_deref(), console),
     }

@@ -4,40 +4,38 @@ use crate::args::RenderArgs;
 use crate::console::Console;
 use crate::failure::Failure;
 use crate::job::{self, Job};
-use crate::summary;
-use hray::{Description, Destination, Error, Input, Options, PictureFormat, Quoted};
+use crate::pattern::Pattern;
+use crate::{animate, summary};
+use hray::{AnimationFormat, Description, Destination, Error, Input, Options, PictureFormat, Quoted};
 use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
 
 /// Renders a scene.
 pub(crate) fn run(arguments: &RenderArgs, console: &Console) -> Result<(), Failure> {
     let input = Input::from_argument(arguments.input.clone());
+    if let Some(frames) = arguments.frames {
+        return animate::run(arguments, &input, frames, console);
+    }
     let output = output_name(arguments, &input)?;
-    let read = || job::read_scene(&input, &arguments.lints.levels, console);
+    let time = arguments.time.or(arguments.frame.map(|frame| animate::moment(frame, arguments)));
+    let load = arguments.scene.options(&arguments.lints.levels, time.unwrap_or(0.0));
+    let read = || job::read_scene(&input, &load, console);
     // A name that is made from the scene's is only as good as that one.
     let early = if arguments.output.is_none() { Some(read()?) } else { None };
     let destination = destination(&output)?;
     let format = format(arguments, &output, &destination, console)?;
     job::check_not_an_input(&output, &input, &arguments.common)?;
 
-    let description = early.map_or_else(read, Ok)?;
-    let options = Options {
-        size: arguments.size,
-        max_depth: arguments.depth,
-        samples: arguments.samples,
-        region: arguments.region,
-        threads: arguments.common.threads,
-        noise_tables: job::noise_tables(&arguments.common)?,
-    };
-    warn_of_another_shape(&options, &description, console);
+    let file = early.map_or_else(read, Ok)?;
+    if time.is_some() {
+        animate::warn_of_a_still(&file, console, "every moment of it is the same");
+    }
+    job::check_not_imported(&output, &file)?;
+    let description = job::description(&file)?;
+    let options = options(arguments)?;
+    warn_of_another_shape(&options, description, console);
 
-    let job = Job {
-        description: &description,
-        options: &options,
-        destination: &destination,
-        name: &output,
-        format,
-    };
+    let job = Job { description, options: &options, destination: &destination, name: &output, format };
     let (statistics, time) = job.run(console, arguments.quiet)?;
     if !arguments.quiet {
         console.say(summary::of(&job, &statistics, time));
@@ -45,10 +43,25 @@ pub(crate) fn run(arguments: &RenderArgs, console: &Console) -> Result<(), Failu
     Ok(())
 }
 
+/// How to render.
+pub(crate) fn options(arguments: &RenderArgs) -> Result<Options, Failure> {
+    Ok(Options {
+        size: arguments.size,
+        max_depth: arguments.depth,
+        samples: arguments.samples,
+        region: arguments.region,
+        threads: arguments.common.threads,
+        noise_tables: job::noise_tables(&arguments.common)?,
+    })
+}
+
 /// The picture's name: as it was given, or the scene's with another extension.
 fn output_name(arguments: &RenderArgs, input: &Input) -> Result<PathBuf, Failure> {
     match (&arguments.output, input) {
-        (Some(output), _) => Ok(output.clone()),
+        (Some(output), _) => {
+            let numbered = arguments.frame.and_then(|frame| Some(Pattern::of(output)?.name(frame)));
+            Ok(numbered.unwrap_or_else(|| output.clone()))
+        }
         (None, Input::Stdin) => Err(Failure::Usage(
             "a scene from the standard input has no name to call the picture by; give one with -o, or `-o -` \
              for the standard output"
@@ -77,25 +90,13 @@ fn format(
     destination: &Destination,
     console: &Console,
 ) -> Result<PictureFormat, Failure> {
-    let told = PictureFormat::from_path(output);
-    let mut format = match (arguments.format, &told) {
-        (Some(format), _) => format,
-        (None, Ok(format)) => *format,
-        (None, Err(_)) if destination.is_direct() => PictureFormat::Png,
-        (None, Err(error)) => {
-            return Err(Failure::Usage(format!("{error}; or name the format with --format")));
-        }
+    let unnamed = arguments.format.is_none() && PictureFormat::from_path(output).is_err();
+    let format = if destination.is_direct() && unnamed {
+        if arguments.ascii { return Err(not_ppm(PictureFormat::Png)) } else { PictureFormat::Png }
+    } else {
+        told_format(arguments, output)?
     };
-    if arguments.ascii {
-        if !matches!(format, PictureFormat::Ppm | PictureFormat::PpmAscii) {
-            return Err(Failure::Usage(format!(
-                "--ascii is for PPM, and the picture would be {format}; give it a name that ends in .ppm with -o, \
-                 or add --format ppm"
-            )));
-        }
-        format = PictureFormat::PpmAscii;
-    }
-    if let Ok(told) = told
+    if let Ok(told) = PictureFormat::from_path(output)
         && told != format
         && format != PictureFormat::PpmAscii
     {
@@ -110,7 +111,38 @@ fn format(
     Ok(format)
 }
 
-fn warn_of_another_shape(options: &Options, description: &Description, console: &Console) {
+/// The format that was asked for, else the one that the name tells.
+pub(crate) fn told_format(arguments: &RenderArgs, output: &Path) -> Result<PictureFormat, Failure> {
+    let format = match (arguments.format, PictureFormat::from_path(output)) {
+        (Some(format), _) => format,
+        (None, Ok(format)) => format,
+        (None, Err(_)) if AnimationFormat::from_path(output).is_some() && arguments.frames.is_none() => {
+            return Err(Failure::Usage(format!(
+                "{} is the name of an animation; say which frames it has, such as `--frames 0..47`",
+                Quoted(output)
+            )));
+        }
+        (None, Err(error)) => {
+            return Err(Failure::Usage(format!("{error}; or name the format with --format")));
+        }
+    };
+    if !arguments.ascii {
+        return Ok(format);
+    }
+    match format {
+        PictureFormat::Ppm | PictureFormat::PpmAscii => Ok(PictureFormat::PpmAscii),
+        format => Err(not_ppm(format)),
+    }
+}
+
+fn not_ppm(format: PictureFormat) -> Failure {
+    Failure::Usage(format!(
+        "--ascii is for PPM, and the picture would be {format}; give it a name that ends in .ppm with -o, or add \
+         --format ppm"
+    ))
+}
+
+pub(crate) fn warn_of_another_shape(options: &Options, description: &Description, console: &Console) {
     let Some(size) = options.size.filter(|_| options.changes_aspect(description)) else { return };
     let scene = description.resolution;
     let aspect = |size: hray::Resolution| f64::from(size.width()) / f64::from(size.height());

@@ -1,7 +1,8 @@
 //! What a render did, in a few lines.
 
 use crate::job::Job;
-use hray::Statistics;
+use hray::{AnimationFormat, PictureFormat, Statistics};
+use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 /// The summary at the end of `hray render`.
@@ -12,17 +13,68 @@ pub(crate) fn of(job: &Job<'_>, statistics: &Statistics, time: Duration) -> Stri
         |_| String::new(),
         |settings| format!("{}x{}", settings.region.width(), settings.region.height()),
     );
-    let seconds = time.as_secs_f64();
-    let rays = &statistics.rays;
     let name =
         if job.destination.is_stdout() { "the standard output".into() } else { job.name.to_string_lossy() };
     format!(
-        "{name}: {size} {}, {}, {}\n\
-         {} rays: {} camera, {} shadow, {} reflection, {} refraction\n\
-         {} with {}, {} rays per second\n",
+        "{name}: {size} {}, {}, {}\n{}",
         job.format,
         counted(scene.primitives.len(), "object"),
         counted(scene.lights.len(), "light"),
+        work(statistics, time)
+    )
+}
+
+/// What several renders did together.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Total {
+    statistics: Statistics,
+    frames: u32,
+    /// The size of the last one.
+    size: [u32; 2],
+}
+
+impl Total {
+    /// Counts one more.
+    pub(crate) fn add(&mut self, size: [u32; 2], statistics: &Statistics) {
+        self.statistics.rays += statistics.rays;
+        self.statistics.threads = self.statistics.threads.max(statistics.threads);
+        (self.frames, self.size) = (self.frames + 1, size);
+    }
+}
+
+/// The summary of numbered pictures, of which the first and the last are named.
+pub(crate) fn of_frames(
+    [first, last]: &[PathBuf; 2],
+    format: PictureFormat,
+    total: &Total,
+    time: Duration,
+) -> String {
+    let Total { frames, size: [width, height], statistics } = total;
+    let (first, last) = (first.to_string_lossy(), last.to_string_lossy());
+    let names = if first == last { first.into_owned() } else { format!("{first} to {last}") };
+    let frames = counted(*frames as usize, "frame");
+    format!("{names}: {frames}, {width}x{height} {format}\n{}", work(statistics, time))
+}
+
+/// The summary of an animation in one file.
+pub(crate) fn of_animation(
+    path: &Path,
+    format: AnimationFormat,
+    frames: u32,
+    total: &Total,
+    time: Duration,
+) -> String {
+    let Total { size: [width, height], statistics, .. } = total;
+    let (name, frames) = (path.to_string_lossy(), counted(frames as usize, "frame"));
+    format!("{name}: {frames}, {width}x{height} {format}\n{}", work(statistics, time))
+}
+
+/// Rays, and the time that they took.
+fn work(statistics: &Statistics, time: Duration) -> String {
+    let (rays, seconds) = (&statistics.rays, time.as_secs_f64());
+    format!(
+        "{} rays: {} camera, {} shadow, {} reflection, {} refraction\n\
+         {} with {}, {} rays per second\n",
         grouped(rays.total()),
         grouped(rays.camera),
         grouped(rays.shadow),

@@ -103,6 +103,17 @@ impl Destination {
     }
 }
 
+/// Makes a folder for pictures, and those it lies in, where they are missing. The empty path is the current one.
+///
+/// # Errors
+/// [`OutputError::Io`] where the system refuses, or there is a file of that name.
+pub fn create_folder(path: &Path) -> Result<(), OutputError> {
+    if path.as_os_str().is_empty() {
+        return Ok(());
+    }
+    fs::create_dir_all(path).map_err(|source| OutputError::Io { path: path.to_owned(), source })
+}
+
 /// Follows links, and sees what is there.
 fn place_of(path: &Path) -> io::Result<Place> {
     let mut target = path.to_owned();

@@ -45,7 +45,7 @@ mod source;
 mod text;
 
 pub use animation::{AnimationFormat, AnimationWriter, MAX_FPS, MIN_FPS};
-pub use destination::Destination;
+pub use destination::{Destination, create_folder};
 pub use error::{InputError, OutputError};
 pub use folder::{Folder, FolderError};
 pub use format::{PictureFormat, UnknownFormat};

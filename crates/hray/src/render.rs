@@ -2,8 +2,8 @@
 
 use crate::picture::Memory;
 use crate::{
-    Control, Description, Destination, Error, Options, OutputError, Picture, PictureFormat, Settings,
-    Statistics,
+    AnimationWriter, Control, Description, Destination, Error, Options, OutputError, Picture, PictureFormat,
+    Settings, Statistics,
 };
 use hray_io::PictureWriter;
 use hray_render::RenderError;
@@ -32,7 +32,7 @@ pub fn render_to_file(
 /// so that memory does not grow with the picture, except in formats that want the whole of it at once.
 ///
 /// # Errors
-/// [`Error::Options`], [`Error::Output`], [`Error::Cancelled`], [`Error::Threads`].
+/// [`Error::Options`], [`Error::Output`], [`Error::Cancelled`], [`Error::Threads`], [`Error::Solids`].
 pub fn render_to(
     description: &Description,
     options: &Options,
@@ -44,6 +44,34 @@ pub fn render_to(
     let [width, height] = size(&settings);
     let writer = PictureWriter::create(destination, format, width, height)?;
     render_into(description, options, &settings, format, writer, control)
+}
+
+/// Renders one frame of an animation. Its size is that of the animation.
+///
+/// # Errors
+/// As [`render_to`].
+pub fn render_frame(
+    description: &Description,
+    options: &Options,
+    animation: &mut AnimationWriter,
+    control: &Control,
+) -> Result<Statistics, Error> {
+    let settings = options.settings(description)?;
+    // The pixels of an animation are those of a PNG.
+    let encode = |run: &[crate::Rgb]| PictureFormat::Png.encode(run, description.encoding);
+    hray_render::render(description, &options.noise_tables, &settings, control, encode, |bytes| {
+        animation.write(&bytes)
+    })
+    .map_err(from_render)
+}
+
+fn from_render(error: RenderError<OutputError>) -> Error {
+    match error {
+        RenderError::Cancelled => Error::Cancelled,
+        RenderError::Threads => Error::Threads,
+        RenderError::Solids => Error::Solids,
+        RenderError::Sink(error) => Error::Output(error),
+    }
 }
 
 /// Renders to the bytes of a file of that format.
@@ -67,7 +95,7 @@ pub fn render_to_bytes(
 /// Renders to colours in double precision, 24 bytes a pixel.
 ///
 /// # Errors
-/// [`Error::Options`], [`Error::Cancelled`], [`Error::Threads`], [`Error::Memory`].
+/// [`Error::Options`], [`Error::Cancelled`], [`Error::Threads`], [`Error::Solids`], [`Error::Memory`].
 pub fn render_to_memory(
     description: &Description,
     options: &Options,
@@ -93,6 +121,7 @@ pub fn render_to_memory(
     .map_err(|error| match error {
         RenderError::Cancelled => Error::Cancelled,
         RenderError::Threads => Error::Threads,
+        RenderError::Solids => Error::Solids,
         RenderError::Sink(never) => match never {},
     })?;
     // A finished render has given every pixel of the region.
@@ -120,11 +149,7 @@ fn render_into(
         |run| format.encode(run, description.encoding),
         |bytes| writer.write(&bytes),
     )
-    .map_err(|error: RenderError<OutputError>| match error {
-        RenderError::Cancelled => Error::Cancelled,
-        RenderError::Threads => Error::Threads,
-        RenderError::Sink(error) => Error::Output(error),
-    })?;
+    .map_err(from_render)?;
     writer.finish()?;
     Ok(statistics)
 }

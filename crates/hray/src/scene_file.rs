@@ -239,6 +239,9 @@ impl Moments<'_> {
         if let (Some(evaluator), Some(checked)) = (&mut self.evaluator, self.file.checked.as_deref()) {
             let mut evaluated = evaluator.at(time);
             lint::apply(&checked.options.levels, &mut evaluated.diagnostics);
+            // What the checker saw in the text, the evaluator may find in the value.
+            let told = |span| checked.warnings.iter().any(|warning| warning.primary.span == span);
+            evaluated.diagnostics.retain(|found| found.is_error() || !told(found.primary.span));
             file.diagnostics.clone_from(&checked.warnings);
             file.diagnostics.append(&mut evaluated.diagnostics);
             file.description = evaluated.description.filter(|_| file.errors() == 0);

@@ -1,8 +1,8 @@
 //! A scene in a few numbers.
 
 use crate::{
-    Background, Camera, DMat3, DVec3, Description, Field, Function, Light, Material, NoiseTexture, Primitive,
-    Scene, Shape, Texture,
+    Background, Camera, DMat3, DVec3, Description, Encoding, Field, Function, Integrator, Light, Material,
+    NoiseTexture, Primitive, Scene, Shape, Texture,
 };
 use serde::Serialize;
 use std::collections::{BTreeMap, BTreeSet};
@@ -23,6 +23,12 @@ pub struct Summary {
     pub max_depth: i32,
     /// Samples a pixel.
     pub samples: u32,
+    /// How light is followed: `classic2005` or `whitted`.
+    pub integrator: &'static str,
+    /// What becomes of colours in a file: `raw` or `srgb`.
+    pub encoding: &'static str,
+    /// The moment that is shown, in seconds.
+    pub time: f64,
     /// Where the picture is taken from.
     pub camera: CameraSummary,
     /// What a ray sees that hits nothing: red, green, blue; none where that is a function of its direction.
@@ -158,7 +164,7 @@ impl Summary {
     /// The summary of a description.
     #[must_use]
     pub fn of(description: &Description) -> Self {
-        let Description { resolution, max_depth, samples, scene, .. } = description;
+        let Description { resolution, max_depth, samples, integrator, encoding, scene } = description;
         let lights = |kind: fn(&Light) -> bool| scene.lights.iter().filter(|light| kind(light)).count();
         let ambient_lights = lights(|light| matches!(light, Light::Ambient { .. }));
         let objects = Objects::of(&scene.primitives);
@@ -177,6 +183,15 @@ impl Summary {
             height: resolution.height(),
             max_depth: *max_depth,
             samples: samples.get(),
+            integrator: match integrator {
+                Integrator::Classic2005 => "classic2005",
+                Integrator::Classic => "whitted",
+            },
+            encoding: match encoding {
+                Encoding::Raw => "raw",
+                Encoding::Srgb => "srgb",
+            },
+            time: scene.time,
             camera: CameraSummary::of(&scene.camera),
             background: match scene.background {
                 Background::Uniform(color) => Some(color.to_array()),

@@ -44,7 +44,7 @@ pub(super) struct Machine<'a> {
     /// The definitions that are being worked out, each needed by the one before.
     running: Vec<(usize, usize)>,
     stack: Vec<Value>,
-    steps: u64,
+    pub(super) steps: u64,
     depth: u32,
     /// The graph that is being built while a function of a hit is evaluated.
     pub(super) graph: Option<Builder>,
@@ -99,6 +99,12 @@ impl<'a> Machine<'a> {
             warnings: Vec::new(),
             time: 0.0,
         }
+    }
+
+    /// Begins with another moment, in seconds.
+    pub(super) fn begin(&mut self, time: f64) {
+        self.time = time;
+        self.steps = 0;
     }
 
     /// `file:line:column` of a place, the file only where it is not the scene itself.

@@ -53,7 +53,7 @@ pub fn evaluate(program: &Program, assets: &dyn Assets, time: f64, limits: &Limi
 }
 
 impl<'a> Evaluator<'a> {
-    /// An evaluation of `program` within `limits`, which hold for all moments together.
+    /// An evaluation of `program` within `limits`; each moment has the steps anew.
     #[must_use]
     pub fn new(program: &'a Program, assets: &'a dyn Assets, limits: &Limits) -> Self {
         Self { machine: Machine::new(program, assets, *limits) }
@@ -62,7 +62,7 @@ impl<'a> Evaluator<'a> {
     /// The scene at a time in seconds.
     #[must_use]
     pub fn at(&mut self, time: f64) -> Evaluated {
-        self.machine.time = time;
+        (self.machine.time, self.machine.steps) = (time, 0);
         let result = self.machine.scene();
         let mut diagnostics = std::mem::take(&mut self.machine.warnings);
         match result {

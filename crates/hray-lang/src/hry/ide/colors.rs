@@ -39,14 +39,14 @@ impl Analysis {
         let mut found = Vec::new();
         for definition in &root.syntax.definitions {
             definition.body.walk(&mut |expr| {
-                let written = match &expr.kind {
-                    ExprKind::Color(_) => self.constant(expr, false, 0),
-                    ExprKind::Apply { .. } => self.call(expr, false),
+                let color = match &expr.kind {
+                    ExprKind::Color(bytes) => Some(bytes.map(|byte| f64::from(byte) / 255.0)),
+                    ExprKind::Apply { .. } => self.call(expr, false).map(|linear| linear.map(encode)),
                     _ => None,
                 };
-                let text = expr.span.text(&self.text);
-                if let (Some(linear), false) = (written, text.is_empty()) {
-                    found.push(ColorPlace { span: expr.span, color: linear.map(encode) });
+                let span = without_brackets(expr.span, &self.text);
+                if let (Some(color), false) = (color, span.is_empty()) {
+                    found.push(ColorPlace { span, color });
                 }
             });
         }
@@ -136,6 +136,16 @@ impl Analysis {
         };
         is_own.then_some(color)
     }
+}
+
+/// A call's place without the brackets around it; empty where it is not in the text.
+fn without_brackets(span: Span, text: &str) -> Span {
+    let mut inner = span.text(text);
+    while let Some(stripped) = inner.strip_prefix('(').and_then(|rest| rest.strip_suffix(')')) {
+        inner = stripped.trim();
+    }
+    let start = span.text(text).find(inner).map_or(span.start, |at| span.start + at);
+    Span::new(start, start + inner.len())
 }
 
 fn number(expr: &Expr) -> Option<f64> {

@@ -47,7 +47,7 @@ impl Analysis {
     fn hover_name(&self, token: &SyntaxToken, plain: Hover) -> Option<Hover> {
         let (_, checked) = self.hry.as_ref()?;
         let (span, name) = (plain.span, token.text());
-        match checked.definition_at(span.start) {
+        match self.target(span.start) {
             Some(Target::Global(global)) => {
                 let mut text = describe::documentation(self, global);
                 if let Some(definition) = describe::definition(self, global) {
