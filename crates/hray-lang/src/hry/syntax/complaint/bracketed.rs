@@ -100,10 +100,16 @@ impl Parser<'_> {
     pub(in super::super) fn empty_parentheses(&mut self, first: usize) {
         let span = self.span_of(first).to(self.here());
         let message = "there is nothing in these parentheses";
-        let error = Diagnostic::error("empty-parentheses", message, span, "expected a value");
-        self.report(
-            error.with_help("a function without arguments is just a value: leave the parentheses out"),
-        );
+        let error = Diagnostic::error("empty-parentheses", message, span, "expected something in them");
+        let before = first.checked_sub(1).filter(|before| self.kind_of(*before) == SyntaxKind::Name);
+        let error = match before {
+            Some(name) => {
+                let surplus = Span::new(self.span_of(name).end, span.end);
+                error.with_suggestion(surplus, "", "what takes no arguments is just a value: leave them out")
+            }
+            None => error.with_help("parentheses hold a value, or the two or three components of a vector"),
+        };
+        self.report(error);
         self.failed_at = Some(self.at);
     }
 
