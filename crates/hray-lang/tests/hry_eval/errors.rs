@@ -15,7 +15,7 @@ macro_rules! mistakes {
 
 mistakes! {
     needs_itself: "a = b + 1\nb = a * 2\nscene = { objects = [sphere { radius = a }] }";
-    radius_worked_out_to_be_negative: "r = 1 - 3\nscene = { objects = [sphere { radius = r }] }";
+    size_worked_out_to_be_negative: "r = 1 - 3\nscene = { objects = [cube { size = r }] }";
     radius_not_a_number: "scene = { objects = [sphere { radius = 0 / 0.0 + 1 }] }";
     size_not_whole: "w = 640 / 7\nscene = { size = (w, 480) }";
     angle_without_deg: "a = 60\nscene = { camera = perspective { from = (0, 0, 5), fov = a } }";

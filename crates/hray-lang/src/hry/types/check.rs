@@ -41,6 +41,15 @@ pub fn check(program: &Program, diagnostics: &mut Vec<Diagnostic>) -> Checked {
     found.append(&mut infer.diagnostics);
     found.sort_by_key(|diagnostic| (diagnostic.primary.span.start, diagnostic.primary.span.end));
     found.dedup();
+    // Where the text could not be read, what was made of it says nothing about what was meant.
+    let unread: Vec<Span> = diagnostics
+        .iter()
+        .filter(|diagnostic| diagnostic.is_error())
+        .flat_map(|diagnostic| std::iter::once(&diagnostic.primary).chain(&diagnostic.secondary))
+        .map(|label| label.span)
+        .collect();
+    let touches = |span: Span| unread.iter().any(|other| span.start < other.end && other.start < span.end);
+    found.retain(|diagnostic| !touches(diagnostic.primary.span));
     diagnostics.extend(found);
     let Infer { types, notes, fields, literals, accesses, locals, .. } = infer;
     Checked::new(program, names, types, locals, notes, fields, literals, accesses)
