@@ -145,7 +145,7 @@ fn a_file_that_is_imported_is_not_replaced() {
 fn a_scene_that_never_ends_ends() {
     let folder = folder();
     folder.write("loop.hry", "grow n = grow (n + 1)\nscene = { depth = grow 0 }\n");
-    folder.run("render loop.hry").says(1, &["error", "loop.hry:1:", "--eval-"]);
+    folder.run("render loop.hry --eval-steps 1_000_000").says(1, &["error", "loop.hry:1:", "--eval-"]);
     folder.write("long.hry", "scene = { depth = count [0 .. 100] - 98 }\n");
     folder.run("check long.hry").says(0, &[]);
     folder.run("check long.hry --eval-list 50").says(1, &["--eval-list"]);

@@ -18,8 +18,10 @@
 //! # }
 //! ```
 //!
-//! The steps are there one by one, too. [`SceneFile`] is a scene with its source text and everything there is
-//! to say about it; [`Options`] change what the scene file asks for; [`render_to_memory`] gives the colours as
+//! The steps are there one by one, too. [`SceneFile`] is a scene, in either language, with its source text and everything
+//! there is to say about it, as text and as [`Findings`] for programs; [`LoadOptions`] say what it may read, which of its
+//! definitions are replaced, and which moment is shown, and [`SceneFile::moments`] gives one after another, for
+//! animations. [`Options`] change what the scene file asks for; [`render_to_memory`] gives the colours as
 //! they were computed, in double precision, as a [`Picture`] that can be looked at and saved. A [`Control`],
 //! shared with another thread, tells how far a render is and stops it:
 //!

@@ -235,18 +235,24 @@ impl Moments<'_> {
     /// errors that come before evaluation.
     #[must_use]
     pub fn at(&mut self, time: f64) -> SceneFile {
-        let mut file = self.file.clone();
-        if let (Some(evaluator), Some(checked)) = (&mut self.evaluator, self.file.checked.as_deref()) {
-            let mut evaluated = evaluator.at(time);
-            lint::apply(&checked.options.levels, &mut evaluated.diagnostics);
-            // What the checker saw in the text, the evaluator may find in the value.
-            let told = |span| checked.warnings.iter().any(|warning| warning.primary.span == span);
-            evaluated.diagnostics.retain(|found| found.is_error() || !told(found.primary.span));
-            file.diagnostics.clone_from(&checked.warnings);
-            file.diagnostics.append(&mut evaluated.diagnostics);
-            file.description = evaluated.description.filter(|_| file.errors() == 0);
-            file.animated = evaluated.animated;
-        }
+        let (Some(evaluator), Some(checked)) = (&mut self.evaluator, &self.file.checked) else {
+            return self.file.clone();
+        };
+        let mut evaluated = evaluator.at(time);
+        lint::apply(&checked.options.levels, &mut evaluated.diagnostics);
+        // What the checker saw in the text, the evaluator may find in the value.
+        let told = |span| checked.warnings.iter().any(|warning| warning.primary.span == span);
+        evaluated.diagnostics.retain(|found| found.is_error() || !told(found.primary.span));
+        let mut file = SceneFile {
+            language: Language::Hry,
+            sources: self.file.sources.clone(),
+            description: None,
+            diagnostics: checked.warnings.clone(),
+            animated: evaluated.animated,
+            checked: Some(checked.clone()),
+        };
+        file.diagnostics.append(&mut evaluated.diagnostics);
+        file.description = evaluated.description.filter(|_| file.errors() == 0);
         file
     }
 }
