@@ -1,6 +1,8 @@
 //! The scenes in hry that the project shows: each is as a user would want to find it, and its picture is the recorded one,
 //! to the byte, at a small size. `HRAY_BLESS=1` records them anew.
 
+#![allow(clippy::unwrap_used, clippy::panic, reason = "tests may fail loudly")]
+
 use hray::{Control, Input, Language, LoadOptions, Options, PictureFormat, Resolution, SceneFile};
 use std::num::NonZeroU32;
 use std::path::{Path, PathBuf};

@@ -141,19 +141,18 @@ fn solid_hit<S: Simd>(
     first: f64,
     walk: &mut Walk,
 ) -> (Lanes<S>, Lanes<S>) {
-    let mut found = [[f64::NAN; MAX_LANES]; 2];
+    let (mut distances, mut leaves) = ([f64::NAN; MAX_LANES], [f64::NAN; MAX_LANES]);
     let (o, d) = (rays.origin, rays.direction);
-    for lane in 0..Lanes::<S>::LEN {
+    for (lane, (at, which)) in distances.iter_mut().zip(&mut leaves).enumerate().take(Lanes::<S>::LEN) {
         let ray = Ray {
             origin: DVec3::new(o.x[lane], o.y[lane], o.z[lane]),
             direction: DVec3::new(d.x[lane], d.y[lane], d.z[lane]),
         };
         if let Some((distance, leaf)) = solid.hit(geometry, &ray, walk) {
-            found[0][lane] = distance;
-            found[1][lane] = first + leaf as f64;
+            *at = distance;
+            *which = first + leaf as f64;
         }
     }
-    let [distance, leaf] = found;
     let len = Lanes::<S>::LEN;
-    (Lanes::<S>::from_slice(simd, &distance[..len]), Lanes::<S>::from_slice(simd, &leaf[..len]))
+    (Lanes::<S>::from_slice(simd, &distances[..len]), Lanes::<S>::from_slice(simd, &leaves[..len]))
 }
