@@ -4,5 +4,6 @@ mod common;
 mod errors;
 mod limits;
 mod places;
+mod soundness;
 mod types;
 mod warnings;
