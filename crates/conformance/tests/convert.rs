@@ -1,5 +1,7 @@
 //! Classic scenes in hry are the same scenes.
 
+#![allow(clippy::unwrap_used, clippy::panic, reason = "tests may fail loudly")]
+
 use conformance::{engine_colors, random, recorded};
 use hray::{Description, LintLevels, NoiseTables, SceneFile};
 use std::path::{Path, PathBuf};

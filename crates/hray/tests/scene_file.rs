@@ -2,6 +2,8 @@
 
 #![allow(clippy::unwrap_used, clippy::expect_used, reason = "a test may fail loudly")]
 
+#![allow(clippy::panic, reason = "tests may fail loudly")]
+
 use hray::{
     Formatted, Input, InputError, Language, Light, Limits, LintLevels, LoadOptions, SceneFile, format_scene,
 };
