@@ -231,7 +231,8 @@ fn position(line: u32, character: u32) -> Value {
 /// A text after edits of one file.
 fn edited(text: &str, edits: &Value) -> String {
     let offset = |position: &Value| {
-        let (line, column) = (position["line"].as_u64().unwrap() as usize, position["character"].as_u64().unwrap());
+        let (line, column) =
+            (position["line"].as_u64().unwrap() as usize, position["character"].as_u64().unwrap());
         let start: usize = text.split_inclusive('\n').take(line).map(str::len).sum();
         let mut units = 0;
         let inside = text[start..].chars().take_while(|c| {
@@ -272,7 +273,8 @@ fn opened(capabilities: Value) -> Client {
 
 #[test]
 fn a_conversation_from_greeting_to_goodbye() {
-    let mut client = opened(json!({ "textDocument": { "completion": { "completionItem": { "snippetSupport": true } } } }));
+    let mut client =
+        opened(json!({ "textDocument": { "completion": { "completionItem": { "snippetSupport": true } } } }));
     assert_eq!(client.diagnostics("scene.hry", 1), [] as [Value; 0]);
 
     // An edit behind the character of two units; what it breaks, and a quick fix.
@@ -283,7 +285,10 @@ fn a_conversation_from_greeting_to_goodbye() {
     let params = json!({ "textDocument": client.document("scene.hry")["textDocument"], "range": error["range"], "context": { "diagnostics": [] } });
     let actions = client.request("textDocument/codeAction", params);
     let changes = &actions[0]["edit"]["changes"][client.uri("scene.hry")];
-    assert_eq!((actions[0]["kind"].as_str(), changes[0]["newText"].as_str()), (Some("quickfix"), Some("double")));
+    assert_eq!(
+        (actions[0]["kind"].as_str(), changes[0]["newText"].as_str()),
+        (Some("quickfix"), Some("double"))
+    );
     client.edit("scene.hry", 3, (4, 18), (4, 23), "double");
     assert_eq!(client.diagnostics("scene.hry", 3), [] as [Value; 0]);
 
@@ -291,16 +296,25 @@ fn a_conversation_from_greeting_to_goodbye() {
     let hover = client.hover("scene.hry", 4, 20);
     assert!(hover.contains("double : Number -> Number") && hover.contains("Twice 𝕏 of it."), "{hover}");
     let hover = client.hover("scene.hry", 0, 23);
-    assert!(hover.contains("ink : Color") && hover.contains("`#102030`") && hover.contains("palette.hry"), "{hover}");
+    assert!(
+        hover.contains("ink : Color") && hover.contains("`#102030`") && hover.contains("palette.hry"),
+        "{hover}"
+    );
     assert_eq!(client.hover("scene.hry", 1, 6), "");
 
     // Definitions: here, in the imported file, in the library.
     let params = client.at("scene.hry", 4, 20);
     let place = client.request("textDocument/definition", params);
-    assert_eq!((place["uri"].as_str(), &place["range"]["start"]), (Some(client.uri("scene.hry").as_str()), &position(3, 0)));
+    assert_eq!(
+        (place["uri"].as_str(), &place["range"]["start"]),
+        (Some(client.uri("scene.hry").as_str()), &position(3, 0))
+    );
     let params = client.at("scene.hry", 5, 39);
     let place = client.request("textDocument/definition", params);
-    assert_eq!((place["uri"].as_str(), &place["range"]["start"]), (Some(client.uri("palette.hry").as_str()), &position(2, 0)));
+    assert_eq!(
+        (place["uri"].as_str(), &place["range"]["start"]),
+        (Some(client.uri("palette.hry").as_str()), &position(2, 0))
+    );
     let params = client.at("scene.hry", 6, 12);
     let place = client.request("textDocument/definition", params);
     let library = place["uri"].as_str().unwrap().strip_prefix("file://").unwrap().to_owned();
@@ -327,13 +341,17 @@ fn a_conversation_from_greeting_to_goodbye() {
     // Symbols.
     let params = client.document("scene.hry");
     let symbols = client.request("textDocument/documentSymbol", params);
-    assert_eq!(symbols.as_array().unwrap().iter().map(|s| s["name"].as_str().unwrap()).collect::<Vec<_>>(), ["double", "t", "scene", "ball"]);
+    assert_eq!(
+        symbols.as_array().unwrap().iter().map(|s| s["name"].as_str().unwrap()).collect::<Vec<_>>(),
+        ["double", "t", "scene", "ball"]
+    );
     assert_eq!(client.finish(), Some(0));
 }
 
 #[test]
 fn completion_knows_the_place() {
-    let mut client = opened(json!({ "textDocument": { "completion": { "completionItem": { "snippetSupport": true } } } }));
+    let mut client =
+        opened(json!({ "textDocument": { "completion": { "completionItem": { "snippetSupport": true } } } }));
     // A field of the sphere, behind the one that is given.
     client.edit("scene.hry", 2, (6, 50), (6, 50), ", ra");
     let items = client.completions("scene.hry", 6, 54);
@@ -367,7 +385,8 @@ fn colours_and_layout() {
     let params = json!({ "textDocument": client.document("scene.hry")["textDocument"], "range": colors[0]["range"],
                          "color": { "red": 0.0, "green": 0.0, "blue": 1.0, "alpha": 1.0 } });
     let ways = client.request("textDocument/colorPresentation", params);
-    let texts: Vec<&str> = ways.as_array().unwrap().iter().map(|way| way["label"].as_str().unwrap()).collect();
+    let texts: Vec<&str> =
+        ways.as_array().unwrap().iter().map(|way| way["label"].as_str().unwrap()).collect();
     assert_eq!(texts, ["#0000ff", "rgb 0 0 1", "hsl 240deg 1 0.5"]);
 
     let options = json!({ "tabSize": 2, "insertSpaces": true });
@@ -393,7 +412,10 @@ fn what_is_open_counts_for_more_than_the_disk() {
     // The name is gone in the editor's text of the imported file, then back when that is closed.
     client.open("palette.hry", "other = 1\n");
     let found = client.diagnostics("scene.hry", 1);
-    assert!(found.iter().any(|found| found["message"].as_str().unwrap().contains("does not define `ink`")), "{found:?}");
+    assert!(
+        found.iter().any(|found| found["message"].as_str().unwrap().contains("does not define `ink`")),
+        "{found:?}"
+    );
     let params = client.document("palette.hry");
     client.notify("textDocument/didClose", params);
     assert_eq!(client.diagnostics("scene.hry", 1), [] as [Value; 0]);
@@ -432,7 +454,10 @@ fn evaluation_adds_what_only_it_finds() {
 #[test]
 fn classic_files_are_checked() {
     let mut client = Client::new(json!({}));
-    client.open("old.hry", "renderDescr ( resolution (400,300) ) 3 [\n scene { camera (0,0.0,150.0) (100,75) } ");
+    client.open(
+        "old.hry",
+        "renderDescr ( resolution (400,300) ) 3 [\n scene { camera (0,0.0,150.0) (100,75) } ",
+    );
     let found = client.diagnostics("old.hry", 1);
     assert!(found.iter().any(|found| found["range"]["start"] == position(1, 17)), "{found:?}");
     assert_eq!(client.hover("old.hry", 0, 3), "");
@@ -484,7 +509,12 @@ fn nothing_that_a_client_sends_ends_the_conversation() {
         json!({ "textDocument": { "uri": "untitled:Untitled-1", "languageId": "hry", "version": 1, "text": "import \"a.hry\"\nx = gold" } }),
     );
     let hover = json!({ "textDocument": { "uri": "untitled:Untitled-1" }, "position": position(1, 5) });
-    assert!(client.request("textDocument/hover", hover)["contents"]["value"].as_str().unwrap().contains("gold : Color"));
+    assert!(
+        client.request("textDocument/hover", hover)["contents"]["value"]
+            .as_str()
+            .unwrap()
+            .contains("gold : Color")
+    );
     // The edits before are there.
     let params = client.document("scene.hry");
     assert_eq!(client.request("textDocument/documentSymbol", params).as_array().unwrap().len(), 2);

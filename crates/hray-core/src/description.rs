@@ -58,14 +58,25 @@ impl fmt::Display for Resolution {
     }
 }
 
-/// How light is followed.
+/// How light is followed: direct light with shadows, mirrored and refracted rays, to a depth. Thesis §2.3.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Integrator {
-    /// The thesis' integrator to the bit, its absolute constants (1e-6, 1e-9) and its quirks included.
+    /// The thesis' integrator to the bit, its absolute constants (1e-6, 1e-9) and its quirks included. Shapes,
+    /// lights, cameras and functions that the thesis did not have follow its rules: a box is not hit nearer than
+    /// 1e-6, light from behind is subtracted, mirrors see black where there is nothing.
     Classic2005,
-    /// The same kinds of light without absolute constants: rays start outside the error bounds of the hit they
-    /// leave. Mirrors and glass show the background, rays that leave glass obey Snell's law, ambient light is
-    /// coloured by the surface, and surfaces are lit from the side they are seen from.
+    /// The same kinds of light without absolute constants: scenes of any size look alike. Every hit has a bound of
+    /// its rounding error, computed from the magnitudes involved, rays that leave it start beyond that bound, and
+    /// then every hit in front of them counts. What else is different:
+    ///
+    /// - Mirrored and refracted rays see the background, not black or a share of it.
+    /// - Light leaves glass by Snell's law as it enters it, and what cannot leave is mirrored instead of lost.
+    /// - Ambient light is multiplied by the colour of the surface.
+    /// - A surface has two sides: it is lit from the side it is seen from, and light from behind gives nothing.
+    ///   Where no light falls there is no highlight.
+    ///
+    /// As in the thesis, the colour of every hit is clipped to [0, 1], that of the background is not, and what is
+    /// transparent casts shadows like everything else.
     Classic,
 }
 

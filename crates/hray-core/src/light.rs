@@ -13,8 +13,8 @@ pub enum Light {
         /// Intensity per component.
         intensity: Rgb,
     },
-    /// Adds its intensity to every point that is hit, **unmultiplied** by the colour of the surface, as the
-    /// thesis has it.
+    /// Adds its intensity, times the colour of the surface, to every point that is hit; by the rules of the thesis
+    /// ([`crate::Integrator::Classic2005`]) **not** times that colour.
     Ambient {
         /// Intensity per component.
         intensity: Rgb,

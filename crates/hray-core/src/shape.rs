@@ -5,6 +5,9 @@ use glam::DVec3;
 use std::sync::Arc;
 
 /// A sphere: all points at distance |radius| from the centre. Thesis §2.2.2.
+///
+/// Surface parameters: u is the longitude, from 0 at -z eastward over -x (1/4), +z (1/2) and +x (3/4) to just below 1;
+/// v the latitude, from 0 at the south pole (-y) to 1 at the north pole (+y).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sphere {
     /// Radius, in world units. A negative one gives the same surface with its normals turned inward.
@@ -14,15 +17,23 @@ pub struct Sphere {
 }
 
 /// An infinite plane: all points p with normal · p + offset = 0. Thesis §2.2.2.
+///
+/// Surface parameters: coordinates along two unit vectors at right angles to the normal, in units of object space (T.
+/// Duff et al., "Building an Orthonormal Basis, Revisited", JCGT 6(1), 2017). For the normal +y, u is x and v is -z;
+/// for +z they are x and y.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Plane {
-    /// The normal (a, b, c), of any length; where it is shorter than about 1e-9 nothing is ever hit.
+    /// The normal (a, b, c), of any length but 0, where nothing is ever hit; by the rules of the thesis nothing is
+    /// where it is shorter than about 1e-9.
     pub normal: DVec3,
     /// The constant d of ax + by + cz + d = 0, in units of the normal's length.
     pub offset: f64,
 }
 
 /// A box with sides along the axes: all points between two corners.
+///
+/// Surface parameters: from 0 to 1 over each face; seen from outside, u to the right and v upward, with +y up on the
+/// four sides, -z up on the top and +z up on the bottom.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cuboid {
     /// The corner with the smallest coordinates, in object space.

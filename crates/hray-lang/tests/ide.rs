@@ -40,7 +40,8 @@ impl Assets for Files {
     }
 }
 
-const PALETTE: &str = "--| The colour of\n--| dried ink.\nink : Color\nink = #102030\n_hidden = 1\npaper = mix ink white 0.9\n";
+const PALETTE: &str =
+    "--| The colour of\n--| dried ink.\nink : Color\nink = #102030\n_hidden = 1\npaper = mix ink white 0.9\n";
 
 fn files() -> Files {
     Files::new(&[("palette.hry", PALETTE), ("lib/shapes.hry", "ball = sphere {}\n"), ("wood.png", "")])
@@ -72,7 +73,8 @@ fn hover(marked: &str) -> (String, String) {
 
 #[test]
 fn hover_tells_type_and_documentation() {
-    let (code, text) = hover("--| Half of it.\nhalf : Number -> Number\nhalf x = x / 2\nscene = { depth = ha‸lf 4 }");
+    let (code, text) =
+        hover("--| Half of it.\nhalf : Number -> Number\nhalf x = x / 2\nscene = { depth = ha‸lf 4 }");
     assert_eq!((code.as_str(), text.as_str()), ("half : Number -> Number", "Half of it."));
     assert_eq!(hover("f x = sin ‸x\nscene = { depth = f 1 }").0, "x : Number");
     assert!(hover("x = si‸n 1").1.starts_with("Sine"));
@@ -107,7 +109,9 @@ fn hover_import() -> String {
 
 #[test]
 fn fields_are_completed_with_defaults_and_without_those_given() {
-    for marked in ["x = point { ‸ }", "x = point { ‸", "x = point { intensity = 1, ‸ }", "x = point {\n  ‸\n}\ny = 1"] {
+    for marked in
+        ["x = point { ‸ }", "x = point { ‸", "x = point { intensity = 1, ‸ }", "x = point {\n  ‸\n}\ny = 1"]
+    {
         let found = labels(marked);
         assert_eq!(found.first().map(String::as_str), Some("position"), "{marked}");
         assert_eq!(found.contains(&"intensity".to_owned()), !marked.contains("intensity"), "{marked}");
@@ -189,10 +193,19 @@ fn definitions_are_found_here_there_and_in_the_library() {
     let ink = PALETTE.find("ink =").unwrap();
     assert_eq!(goto("import \"palette.hry\" (ink)\nx = in‸k"), Some((own("palette.hry"), ink, "ink".into())));
     assert_eq!(goto("import \"palette.hry\" (i‸nk)\nx = ink"), Some((own("palette.hry"), ink, "ink".into())));
-    assert_eq!(goto("import \"palette.hry\" as p\nx = p.i‸nk"), Some((own("palette.hry"), ink, "ink".into())));
+    assert_eq!(
+        goto("import \"palette.hry\" as p\nx = p.i‸nk"),
+        Some((own("palette.hry"), ink, "ink".into()))
+    );
     assert_eq!(goto("import \"pal‸ette.hry\"\nx = ink"), Some((own("palette.hry"), 0, String::new())));
-    assert_eq!(goto("x = smooth‸step").map(|(file, _, text)| (file, text)), Some((FileId::Library("prelude"), "smoothstep".into())));
-    assert_eq!(goto("x = si‸n").map(|(file, _, text)| (file, text)), Some((FileId::Library("builtin"), "sin".into())));
+    assert_eq!(
+        goto("x = smooth‸step").map(|(file, _, text)| (file, text)),
+        Some((FileId::Library("prelude"), "smoothstep".into()))
+    );
+    assert_eq!(
+        goto("x = si‸n").map(|(file, _, text)| (file, text)),
+        Some((FileId::Library("builtin"), "sin".into()))
+    );
     assert_eq!(goto("x = sphere { ra‸dius = 1 }").unwrap().2, "radius");
     assert_eq!(goto("x = 1 ‸"), None);
 }
@@ -231,13 +244,19 @@ fn renamed(marked: &str, new: &str) -> Result<BTreeMap<String, String>, String> 
 #[test]
 fn renaming_changes_every_use_and_keeps_fields() {
     let scene = |marked, new| renamed(marked, new).map(|texts| texts["scene.hry"].clone());
-    assert_eq!(scene("é : Number\né = 1\nx = ‸é + é", "width").unwrap(), "width : Number\nwidth = 1\nx = width + width");
+    assert_eq!(
+        scene("é : Number\né = 1\nx = ‸é + é", "width").unwrap(),
+        "width : Number\nwidth = 1\nx = width + width"
+    );
     assert_eq!(scene("f radius = sphere { ra‸dius }", "r").unwrap(), "f r = sphere { radius = r }");
     assert_eq!(scene("f { radius } = ra‸dius", "r").unwrap(), "f { radius = r } = r");
     assert_eq!(scene("f x = let y‸ = x in y + y", "sum").unwrap(), "f x = let sum = x in sum + sum");
     let both = renamed("import \"palette.hry\" (ink)\nx = ‸ink", "blackInk").unwrap();
     assert_eq!(both["scene.hry"], "import \"palette.hry\" (blackInk)\nx = blackInk");
-    assert!(both["palette.hry"].contains("blackInk : Color\nblackInk = #102030") && both["palette.hry"].contains("mix blackInk"));
+    assert!(
+        both["palette.hry"].contains("blackInk : Color\nblackInk = #102030")
+            && both["palette.hry"].contains("mix blackInk")
+    );
 }
 
 #[test]
@@ -323,7 +342,8 @@ fn colours_are_listed_and_written_in_other_ways() {
 
 #[test]
 fn symbols_are_nested() {
-    let analysis = Analysis::new("scene.hry", "f x =\n  let y = x\n  in y\nscene = { depth = f 1 }".into(), &files());
+    let analysis =
+        Analysis::new("scene.hry", "f x =\n  let y = x\n  in y\nscene = { depth = f 1 }".into(), &files());
     let symbols = analysis.symbols();
     let [f, scene] = symbols.as_slice() else { panic!("{symbols:?}") };
     assert_eq!((f.name.as_str(), f.kind, scene.kind), ("f", SymbolKind::Function, SymbolKind::Scene));
@@ -335,8 +355,24 @@ fn symbols_are_nested() {
 #[test]
 fn any_offset_of_any_text_is_answered() {
     let texts = [
-        "", "é", "scene = { objects = [ sphere { ", "x = h.", "import \"", "f x = let", "{- é", "x = \"é", "= = =", "a.b.c.", "\\ ->",
-        "renderDescr ( é", "x = match 1 { _ -> é, ", "f : -> {", "import \"palette.hry\" (", "\u{feff}x = 1", "x = #é", "x = { y | ",
+        "",
+        "é",
+        "scene = { objects = [ sphere { ",
+        "x = h.",
+        "import \"",
+        "f x = let",
+        "{- é",
+        "x = \"é",
+        "= = =",
+        "a.b.c.",
+        "\\ ->",
+        "renderDescr ( é",
+        "x = match 1 { _ -> é, ",
+        "f : -> {",
+        "import \"palette.hry\" (",
+        "\u{feff}x = 1",
+        "x = #é",
+        "x = { y | ",
     ];
     for text in texts {
         let analysis = Analysis::new("scene.hry", text.into(), &files());

@@ -4,8 +4,9 @@
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use hray_core::{
-    Background, Camera, DVec3, Description, Encoding, Integrator, Light, Material, NoiseTables, NoiseTexture,
-    Plane, Primitive, Resolution, Rgb, Scene, Shape, Sphere, Texture, WindowCamera,
+    Background, Camera, Csg, CsgOperation, Cuboid, DVec3, Description, Encoding, Integrator, Light, Material,
+    NoiseTables, NoiseTexture, Plane, Primitive, Resolution, Rgb, Scene, Shape, Sphere, Texture,
+    WindowCamera,
 };
 use hray_render::{Control, Settings, render};
 use std::hint::black_box;
@@ -38,12 +39,16 @@ fn wall() -> Shape {
 }
 
 fn bench(c: &mut Criterion, name: &str, scene: &Scene, depth: i32) {
+    bench_by(Integrator::Classic2005, c, name, scene, depth);
+}
+
+fn bench_by(integrator: Integrator, c: &mut Criterion, name: &str, scene: &Scene, depth: i32) {
     let Ok(resolution) = Resolution::new(SIDE.into(), SIDE.into()) else { return };
     let description = Description {
         resolution,
         max_depth: depth,
         samples: NonZeroU32::MIN,
-        integrator: Integrator::Classic2005,
+        integrator,
         encoding: Encoding::Raw,
         scene: scene.clone(),
     };
@@ -89,7 +94,21 @@ fn classic(c: &mut Criterion) {
         (0..n).map(|i| Shape::Sphere(Sphere { radius: 8.0, center: at(i) })).collect::<Vec<_>>()
     };
     bench(c, "100 spheres", &scene(spheres(100), &solid), 0);
-    bench(c, "100 mirrors, 5 levels", &scene(spheres(100), &material(Texture::Solid(gray), 0.8)), 5);
+    let mirrors = scene(spheres(100), &material(Texture::Solid(gray), 0.8));
+    bench(c, "100 mirrors, 5 levels", &mirrors, 5);
+    bench_by(Integrator::Classic, c, "100 mirrors, 5 levels, exact rules", &mirrors, 5);
+    let boxes = |n: usize| {
+        let at = |i: usize| DVec3::new((i % 10) as f64 * 20.0 - 90.0, (i / 10) as f64 * 20.0 - 90.0, -200.0);
+        let cuboid = |i| Cuboid { min: at(i) - 8.0, max: at(i) + 8.0 };
+        (0..n).map(|i| Shape::Cuboid(cuboid(i))).collect::<Vec<_>>()
+    };
+    bench_by(Integrator::Classic, c, "100 boxes", &scene(boxes(100), &solid), 0);
+    let bored = |(a, b)| {
+        let operands = [a, b].map(|shape| Primitive { shape, transform: None, material: solid.clone() });
+        Shape::Csg(Arc::new(Csg { operation: CsgOperation::Difference, operands }))
+    };
+    let solids = boxes(100).into_iter().zip(spheres(100)).map(bored).collect();
+    bench_by(Integrator::Classic, c, "100 bored boxes", &scene(solids, &solid), 0);
 }
 
 criterion_group!(benches, classic);

@@ -5,9 +5,10 @@
 //! depends on the scene, the settings and the pixel's own coordinates; the number of threads, the order in
 //! which runs are finished and the width of the machine's vectors change no bit of it.
 //!
-//! The integrator is the thesis' (§2.3, appendix A.2), in the same order of operations as `hray-model`, which
-//! the `conformance` crate compares it with bit by bit. What differs is only the arrangement: rays travel in
-//! batches, grouped by what they hit, and every step works on as many of them as the machine has lanes.
+//! The integrator is the thesis' (§2.3, appendix A.2). By [`hray_core::Integrator::Classic2005`] it is so in the
+//! same order of operations as `hray-model`, which the `conformance` crate compares it with bit by bit. What differs
+//! is only the arrangement: rays travel in batches, grouped by what they hit, and every step works on as many of
+//! them as the machine has lanes. [`hray_core::Integrator::Classic`] has the same steps without absolute constants.
 
 mod classic;
 mod control;

@@ -8,11 +8,28 @@ fn main() {
     let mut d = vec![];
     let p = Program::load(&path, "scene.hry", text.as_str().into(), &[], &NoAssets, &mut d);
     let c = hray_lang::hry::types::check(&p, &mut d);
-    for d in &d { println!("{:?} {} {} | {:?}", d.code, d.message, d.primary.text, p.sources.location(d.primary.span.start)); }
+    for d in &d {
+        println!(
+            "{:?} {} {} | {:?}",
+            d.code,
+            d.message,
+            d.primary.text,
+            p.sources.location(d.primary.span.start)
+        );
+    }
     let t1 = std::time::Instant::now();
     let e = evaluate(&p, &NoAssets, 0.0, &Limits::default());
     println!("load {:?} evaluate {:?}", t1 - t0, t1.elapsed());
-    for d in &e.diagnostics { println!("{:?} {} {} {:?} | {:?}", d.code, d.message, d.primary.text, d.notes, p.sources.location(d.primary.span.start)); }
+    for d in &e.diagnostics {
+        println!(
+            "{:?} {} {} {:?} | {:?}",
+            d.code,
+            d.message,
+            d.primary.text,
+            d.notes,
+            p.sources.location(d.primary.span.start)
+        );
+    }
     if let (Some(desc), Some(out)) = (e.description, out) {
         println!("{} primitives", desc.scene.primitives.len());
         let t = std::time::Instant::now();

@@ -5,10 +5,10 @@ use super::requests::Refusal;
 use super::server::Server;
 use hray::ide::{Analysis, FileId, Symbol};
 use lsp_types::{
-    Color, ColorInformation, ColorPresentation, ColorPresentationParams, CompletionParams, CompletionResponse,
-    DocumentColorParams, DocumentHighlight, DocumentHighlightParams, DocumentSymbol, DocumentSymbolParams,
-    DocumentSymbolResponse, GotoDefinitionParams, GotoDefinitionResponse, Hover, HoverParams, Location,
-    ReferenceParams, SymbolInformation, TextDocumentPositionParams, TextEdit, Uri,
+    Color, ColorInformation, ColorPresentation, ColorPresentationParams, CompletionParams,
+    CompletionResponse, DocumentColorParams, DocumentHighlight, DocumentHighlightParams, DocumentSymbol,
+    DocumentSymbolParams, DocumentSymbolResponse, GotoDefinitionParams, GotoDefinitionResponse, Hover,
+    HoverParams, Location, ReferenceParams, SymbolInformation, TextDocumentPositionParams, TextEdit, Uri,
 };
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -27,18 +27,23 @@ impl Server {
         let uri = params.text_document.uri.as_str().to_owned();
         let analysis = self.analysis(&uri)?;
         let document = self.documents.get(&uri)?;
-        let (root, offset) = (document.home.root.clone(), document.offset(params.position, self.client.encoding));
+        let (root, offset) =
+            (document.home.root.clone(), document.offset(params.position, self.client.encoding));
         Some(At { uri, root, analysis, offset })
     }
 
     pub(super) fn hover(&mut self, params: HoverParams) -> Result<Option<Hover>, Refusal> {
         let Some(at) = self.at(&params.text_document_position_params) else { return Ok(None) };
         let Some(hover) = at.analysis.hover(at.offset) else { return Ok(None) };
-        let range = self.documents.get(&at.uri).map(|document| document.range(hover.span, self.client.encoding));
+        let range =
+            self.documents.get(&at.uri).map(|document| document.range(hover.span, self.client.encoding));
         Ok(range.map(|range| convert::hover(&hover, range, self.client.images)))
     }
 
-    pub(super) fn completion(&mut self, params: CompletionParams) -> Result<Option<CompletionResponse>, Refusal> {
+    pub(super) fn completion(
+        &mut self,
+        params: CompletionParams,
+    ) -> Result<Option<CompletionResponse>, Refusal> {
         let Some(at) = self.at(&params.text_document_position) else { return Ok(None) };
         let (folder, open) = (self.folder(&at.root), self.open_texts(&at.root));
         let found = at.analysis.completions(at.offset, &folder.with(&open));
@@ -121,7 +126,13 @@ impl Server {
     }
 
     #[allow(deprecated, reason = "a field that must be given, if only as nothing")]
-    fn flat(&self, uri: &Uri, symbols: &[Symbol], container: Option<&str>, into: &mut Vec<SymbolInformation>) {
+    fn flat(
+        &self,
+        uri: &Uri,
+        symbols: &[Symbol],
+        container: Option<&str>,
+        into: &mut Vec<SymbolInformation>,
+    ) {
         let Some(document) = self.documents.get(uri.as_str()) else { return };
         for symbol in symbols {
             into.push(SymbolInformation {
@@ -129,7 +140,10 @@ impl Server {
                 kind: convert::symbol_kind(symbol),
                 tags: None,
                 deprecated: None,
-                location: Location { uri: uri.clone(), range: document.range(symbol.span, self.client.encoding) },
+                location: Location {
+                    uri: uri.clone(),
+                    range: document.range(symbol.span, self.client.encoding),
+                },
                 container_name: container.map(str::to_owned),
             });
             self.flat(uri, &symbol.children, Some(&symbol.name), into);

@@ -5,11 +5,11 @@ use hray::Severity;
 use hray::ide::{Hover, Remark, Suggestion, SuggestionKind, Symbol, SymbolKind};
 use lsp_types::{
     CodeActionKind, CodeActionOptions, CodeActionProviderCapability, ColorProviderCapability, CompletionItem,
-    CompletionItemKind, CompletionOptions, CompletionTextEdit, DiagnosticRelatedInformation, DiagnosticSeverity,
-    DiagnosticTag, Documentation, HoverContents, HoverProviderCapability, InitializeResult, InsertTextFormat, Location,
-    MarkupContent, MarkupKind, NumberOrString, OneOf, Range, RenameOptions, ServerCapabilities, ServerInfo,
-    TextDocumentSyncCapability, TextDocumentSyncKind, TextEdit, WorkspaceFoldersServerCapabilities,
-    WorkspaceServerCapabilities,
+    CompletionItemKind, CompletionOptions, CompletionTextEdit, DiagnosticRelatedInformation,
+    DiagnosticSeverity, DiagnosticTag, Documentation, HoverContents, HoverProviderCapability,
+    InitializeResult, InsertTextFormat, Location, MarkupContent, MarkupKind, NumberOrString, OneOf, Range,
+    RenameOptions, ServerCapabilities, ServerInfo, TextDocumentSyncCapability, TextDocumentSyncKind,
+    TextEdit, WorkspaceFoldersServerCapabilities, WorkspaceServerCapabilities,
 };
 
 /// What this server can do.
@@ -129,7 +129,11 @@ pub(crate) fn completion(suggestion: &Suggestion, range: Range, snippets: bool) 
         documentation,
         sort_text: Some(format!("{:04}{}", suggestion.rank, suggestion.label)),
         filter_text: Some(suggestion.label.clone()),
-        insert_text_format: Some(if snippet.is_some() { InsertTextFormat::SNIPPET } else { InsertTextFormat::PLAIN_TEXT }),
+        insert_text_format: Some(if snippet.is_some() {
+            InsertTextFormat::SNIPPET
+        } else {
+            InsertTextFormat::PLAIN_TEXT
+        }),
         text_edit: Some(CompletionTextEdit::Edit(TextEdit { range, new_text })),
         ..CompletionItem::default()
     }

@@ -37,7 +37,12 @@ impl Document {
     }
 
     /// Puts in what was changed.
-    pub(crate) fn change(&mut self, changes: Vec<TextDocumentContentChangeEvent>, version: i32, encoding: Encoding) {
+    pub(crate) fn change(
+        &mut self,
+        changes: Vec<TextDocumentContentChangeEvent>,
+        version: i32,
+        encoding: Encoding,
+    ) {
         for change in changes {
             self.text = match change.range {
                 None => change.text.into(),

@@ -1,15 +1,15 @@
 //! Answers that change texts.
 
+use super::convert;
 use super::position::Lines;
 use super::requests::Refusal;
 use super::server::Server;
-use super::convert;
 use hray::ide::{Analysis, Edit, FileId, Place, rename};
 use hray::{Assets, OpenTexts, Span};
 use lsp_types::{
-    CodeAction, CodeActionKind, CodeActionOrCommand, CodeActionParams, DocumentChanges, DocumentFormattingParams, OneOf,
-    OptionalVersionedTextDocumentIdentifier, PrepareRenameResponse, RenameParams, TextDocumentEdit,
-    TextDocumentPositionParams, TextEdit, Uri, WorkspaceEdit,
+    CodeAction, CodeActionKind, CodeActionOrCommand, CodeActionParams, DocumentChanges,
+    DocumentFormattingParams, OneOf, OptionalVersionedTextDocumentIdentifier, PrepareRenameResponse,
+    RenameParams, TextDocumentEdit, TextDocumentPositionParams, TextEdit, Uri, WorkspaceEdit,
 };
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
@@ -61,8 +61,10 @@ impl Server {
     ) -> Result<Option<PrepareRenameResponse>, Refusal> {
         let Some(at) = self.at(&params) else { return Ok(None) };
         let renaming = at.analysis.renaming(at.offset).map_err(Refusal)?;
-        let range = self.documents.get(&at.uri).map(|document| document.range(renaming.span, self.client.encoding));
-        Ok(range.map(|range| PrepareRenameResponse::RangeWithPlaceholder { range, placeholder: renaming.name }))
+        let range =
+            self.documents.get(&at.uri).map(|document| document.range(renaming.span, self.client.encoding));
+        Ok(range
+            .map(|range| PrepareRenameResponse::RangeWithPlaceholder { range, placeholder: renaming.name }))
     }
 
     pub(super) fn rename(&mut self, params: RenameParams) -> Result<Option<WorkspaceEdit>, Refusal> {
@@ -85,7 +87,13 @@ impl Server {
     }
 
     /// Edits by file. `own` is the URI of the file at `own_path`, which may be in no folder.
-    fn workspace_edit(&mut self, root: &Option<PathBuf>, own: &str, own_path: &str, edits: &[Edit]) -> WorkspaceEdit {
+    fn workspace_edit(
+        &mut self,
+        root: &Option<PathBuf>,
+        own: &str,
+        own_path: &str,
+        edits: &[Edit],
+    ) -> WorkspaceEdit {
         let mut by_file: BTreeMap<String, (Option<i32>, Vec<TextEdit>)> = BTreeMap::new();
         for edit in edits {
             let file = if edit.path == own_path {
@@ -113,15 +121,23 @@ impl Server {
             let changes = Some(DocumentChanges::Edits(edits.collect()));
             return WorkspaceEdit { document_changes: changes, ..WorkspaceEdit::default() };
         }
-        #[allow(clippy::mutable_key_type, reason = "the protocol's types have it so; nobody changes the keys")]
+        #[allow(
+            clippy::mutable_key_type,
+            reason = "the protocol's types have it so; nobody changes the keys"
+        )]
         let changes = files.map(|(uri, (_, edits))| (uri, edits)).collect();
         WorkspaceEdit { changes: Some(changes), ..WorkspaceEdit::default() }
     }
 
     /// The common layout, as one edit of what differs. Nothing for classic files and for texts with errors.
-    pub(super) fn formatting(&mut self, params: DocumentFormattingParams) -> Result<Option<Vec<TextEdit>>, Refusal> {
+    pub(super) fn formatting(
+        &mut self,
+        params: DocumentFormattingParams,
+    ) -> Result<Option<Vec<TextEdit>>, Refusal> {
         let uri = params.text_document.uri.as_str();
-        let (Some(analysis), Some(document)) = (self.analysis(uri), self.documents.get(uri)) else { return Ok(None) };
+        let (Some(analysis), Some(document)) = (self.analysis(uri), self.documents.get(uri)) else {
+            return Ok(None);
+        };
         let Some(new) = analysis.formatted() else { return Ok(None) };
         let edit = difference(&document.text, &new).map(|(span, new_text)| {
             let range = document.range(span, self.client.encoding);
@@ -131,7 +147,10 @@ impl Server {
     }
 
     /// The replacements that diagnostics propose.
-    pub(super) fn code_actions(&mut self, params: CodeActionParams) -> Result<Vec<CodeActionOrCommand>, Refusal> {
+    pub(super) fn code_actions(
+        &mut self,
+        params: CodeActionParams,
+    ) -> Result<Vec<CodeActionOrCommand>, Refusal> {
         let uri = params.text_document.uri.as_str();
         let (Some(analysis), Some(document)) = (self.analysis(uri), self.documents.get(uri)) else {
             return Ok(Vec::new());
@@ -140,7 +159,10 @@ impl Server {
         let touches = |span: Span| span.start <= asked.end && asked.start <= span.end;
         let mut found = Vec::new();
         for remark in analysis.remarks().iter().chain(&document.evaluated) {
-            let Some(fix) = remark.fix.as_ref().filter(|fix| touches(remark.span) || touches(fix.span)) else { continue };
+            let Some(fix) = remark.fix.as_ref().filter(|fix| touches(remark.span) || touches(fix.span))
+            else {
+                continue;
+            };
             let range = document.range(fix.span, self.client.encoding);
             let edit = TextEdit { range, new_text: fix.replacement.clone() };
             let by_file = BTreeMap::from([(uri.to_owned(), (Some(document.version), vec![edit]))]);
@@ -177,7 +199,15 @@ mod tests {
 
     #[test]
     fn differences_are_small_and_whole() {
-        for (old, new) in [("a b c", "a x c"), ("é", "éé"), ("", "a"), ("a", ""), ("aé", "aè"), ("aaa", "aa"), ("abab", "ab")] {
+        for (old, new) in [
+            ("a b c", "a x c"),
+            ("é", "éé"),
+            ("", "a"),
+            ("a", ""),
+            ("aé", "aè"),
+            ("aaa", "aa"),
+            ("abab", "ab"),
+        ] {
             let (span, text) = difference(old, new).unwrap();
             assert_eq!(format!("{}{text}{}", &old[..span.start], &old[span.end..]), new);
         }

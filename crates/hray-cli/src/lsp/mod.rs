@@ -107,14 +107,17 @@ impl Session {
                 Response::new_ok(request.id, self.server.initialize(&request.params))
             }
             (Phase::New, _) => refuse(ErrorCode::ServerNotInitialized, "the first request is initialize"),
-            (Phase::Running, "initialize") => refuse(ErrorCode::InvalidRequest, "the server is initialized already"),
+            (Phase::Running, "initialize") => {
+                refuse(ErrorCode::InvalidRequest, "the server is initialized already")
+            }
             (Phase::Running, "shutdown") => {
                 self.phase = Phase::ShutDown;
                 Response::new_ok(request.id, serde_json::Value::Null)
             }
             (Phase::Running, _) => {
                 let answer = catch_unwind(AssertUnwindSafe(|| self.server.request(request)));
-                answer.unwrap_or_else(|_| refuse(ErrorCode::InternalError, "the request could not be answered"))
+                answer
+                    .unwrap_or_else(|_| refuse(ErrorCode::InternalError, "the request could not be answered"))
             }
             (Phase::ShutDown, _) => refuse(ErrorCode::InvalidRequest, "the server is shut down"),
         };

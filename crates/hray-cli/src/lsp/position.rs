@@ -123,7 +123,10 @@ mod tests {
         }
         let at = |line, column, encoding| lines.offset(text, Position::new(line, column), encoding);
         let b = text.find('b').unwrap();
-        assert_eq!((at(0, 7, Encoding::Utf8), at(0, 4, Encoding::Utf16), at(0, 3, Encoding::Utf32)), (b, b, b));
+        assert_eq!(
+            (at(0, 7, Encoding::Utf8), at(0, 4, Encoding::Utf16), at(0, 3, Encoding::Utf32)),
+            (b, b, b)
+        );
         // In the middle of a character, and beyond everything.
         assert_eq!(at(0, 3, Encoding::Utf16), text.find('\u{1d11e}').unwrap());
         assert_eq!(at(0, 99, Encoding::Utf16), b + 1);

@@ -11,12 +11,12 @@ use hray::ide::{Analysis, FileId, Place};
 use hray::{Assets, OpenTexts, WorkFolder};
 use lsp_server::{Message, Notification};
 use lsp_types::notification::{
-    DidChangeTextDocument, DidChangeWatchedFiles, DidChangeWorkspaceFolders, DidCloseTextDocument, DidOpenTextDocument,
-    Notification as _, PublishDiagnostics,
+    DidChangeTextDocument, DidChangeWatchedFiles, DidChangeWorkspaceFolders, DidCloseTextDocument,
+    DidOpenTextDocument, Notification as _, PublishDiagnostics,
 };
 use lsp_types::{
-    DidChangeTextDocumentParams, DidChangeWorkspaceFoldersParams, DidCloseTextDocumentParams, DidOpenTextDocumentParams,
-    InitializeParams, Location, PublishDiagnosticsParams, Range, Uri,
+    DidChangeTextDocumentParams, DidChangeWorkspaceFoldersParams, DidCloseTextDocumentParams,
+    DidOpenTextDocumentParams, InitializeParams, Location, PublishDiagnosticsParams, Range, Uri,
 };
 use serde::de::DeserializeOwned;
 use std::collections::BTreeMap;
@@ -74,11 +74,14 @@ impl Server {
         let params: InitializeParams = serde_json::from_value(params.clone()).unwrap_or_default();
         let capabilities = &params.capabilities;
         let text = capabilities.text_document.as_ref();
-        let encodings = capabilities.general.as_ref().and_then(|general| general.position_encodings.as_deref());
+        let encodings =
+            capabilities.general.as_ref().and_then(|general| general.position_encodings.as_deref());
         let item = text.and_then(|text| text.completion.as_ref()?.completion_item.as_ref()?.snippet_support);
-        let nested = text.and_then(|text| text.document_symbol.as_ref()?.hierarchical_document_symbol_support);
+        let nested =
+            text.and_then(|text| text.document_symbol.as_ref()?.hierarchical_document_symbol_support);
         let edits = capabilities.workspace.as_ref().and_then(|workspace| workspace.workspace_edit.as_ref());
-        let images = params.initialization_options.as_ref().and_then(|options| options.get("images")?.as_bool());
+        let images =
+            params.initialization_options.as_ref().and_then(|options| options.get("images")?.as_bool());
         self.client = Client {
             encoding: Encoding::choose(encodings),
             snippets: item.unwrap_or(false),
@@ -228,7 +231,8 @@ impl Server {
     /// Takes in what evaluation found, unless the text is another by now.
     pub(crate) fn evaluated(&mut self, evaluated: Evaluated) {
         let Some(document) = self.documents.get_mut(&evaluated.uri) else { return };
-        let is_current = document.analysis.as_ref().is_some_and(|analysis| Arc::ptr_eq(analysis, &evaluated.analysis));
+        let is_current =
+            document.analysis.as_ref().is_some_and(|analysis| Arc::ptr_eq(analysis, &evaluated.analysis));
         if is_current && document.evaluated != evaluated.remarks {
             document.evaluated = evaluated.remarks;
             self.tell(&evaluated.uri);
@@ -247,7 +251,8 @@ impl Server {
         let mut diagnostics = Vec::with_capacity(remarks.len());
         for remark in &remarks {
             let related = remark.related.iter();
-            let related = related.filter_map(|(place, text)| Some((self.location(&root, place)?, text.clone())));
+            let related =
+                related.filter_map(|(place, text)| Some((self.location(&root, place)?, text.clone())));
             let related = related.collect();
             let Some(document) = self.documents.get(uri) else { return };
             let range = document.range(remark.span, self.client.encoding);

@@ -110,7 +110,8 @@ impl Output {
     /// Answers something that is no message, whose id is not known.
     pub(crate) fn malformed(&self, why: &str) {
         let code = ErrorCode::ParseError as i32;
-        let error = serde_json::json!({ "jsonrpc": "2.0", "id": null, "error": { "code": code, "message": why } });
+        let error =
+            serde_json::json!({ "jsonrpc": "2.0", "id": null, "error": { "code": code, "message": why } });
         let text = error.to_string();
         let mut output = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         let _ = write!(output, "Content-Length: {}\r\n\r\n{text}", text.len()).and_then(|()| output.flush());

@@ -23,14 +23,17 @@ pub(crate) fn to_path(uri: &str) -> Option<PathBuf> {
 /// The URI of an absolute path.
 pub(crate) fn from_path(path: &Path) -> String {
     let text = path.to_string_lossy();
-    let text = if cfg!(windows) { text.trim_start_matches(r"\\?\").replace('\\', "/") } else { text.into_owned() };
+    let text =
+        if cfg!(windows) { text.trim_start_matches(r"\\?\").replace('\\', "/") } else { text.into_owned() };
     let mut uri = String::from("file://");
     if !text.starts_with('/') {
         uri.push('/');
     }
     for byte in text.bytes() {
         match byte {
-            b'A'..=b'Z' | b'a'..=b'z' | b'0'..=b'9' | b'-' | b'.' | b'_' | b'~' | b'/' => uri.push(char::from(byte)),
+            b'A'..=b'Z' | b'a'..=b'z' | b'0'..=b'9' | b'-' | b'.' | b'_' | b'~' | b'/' => {
+                uri.push(char::from(byte))
+            }
             _ => {
                 let _ = write!(uri, "%{byte:02X}");
             }

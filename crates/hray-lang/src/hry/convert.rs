@@ -2,8 +2,8 @@
 
 use glam::DVec3;
 use hray_core::{
-    Background, Camera, Description, Encoding, Field, Integrator, Light, Material, NoiseTexture, Primitive, Rgb, Shape,
-    Texture,
+    Background, Camera, Description, Encoding, Field, Integrator, Light, Material, NoiseTexture, Primitive,
+    Rgb, Shape, Texture,
 };
 use std::collections::BTreeMap;
 use std::fmt::{self, Write as _};
@@ -20,7 +20,8 @@ const WIDTH: usize = 100;
 #[must_use]
 pub fn convert(description: &Description) -> Option<String> {
     let scene = &description.scene;
-    let as_in_2005 = (description.integrator, description.encoding) == (Integrator::Classic2005, Encoding::Raw);
+    let as_in_2005 =
+        (description.integrator, description.encoding) == (Integrator::Classic2005, Encoding::Raw);
     if !as_in_2005 || scene.time != 0.0 {
         return None;
     }
@@ -235,14 +236,19 @@ fn object(primitive: &Primitive, materials: &Materials) -> Option<Node> {
         // The thesis writes n · p + d = 0, hry n · p = offset.
         Shape::Plane(plane) if plane.normal != DVec3::ZERO => Node::call(
             "plane",
-            [("normal", vector(plane.normal)?), ("offset", real(0.0 - plane.offset)?), ("material", material)],
+            [
+                ("normal", vector(plane.normal)?),
+                ("offset", real(0.0 - plane.offset)?),
+                ("material", material),
+            ],
         ),
         Shape::Sphere(_) | Shape::Plane(_) | Shape::Cuboid(_) | Shape::Csg(_) => return None,
     })
 }
 
 fn material(material: &Material) -> Option<Node> {
-    let Material { texture, reflection, shine, transmission, refractive_index, highlight, glow, bump } = material;
+    let Material { texture, reflection, shine, transmission, refractive_index, highlight, glow, bump } =
+        material;
     if highlight.is_some() || glow.is_some() || bump.is_some() {
         return None;
     }
@@ -281,9 +287,10 @@ fn noise_texture(noise: &NoiseTexture) -> Option<Node> {
             "perlinSemiTurb",
             [("color", color(base)?), ("octaves", count(octaves)), ("grid", real(grid)?)],
         ),
-        NoiseTexture::Turbulence { base, octaves, grid } => {
-            Node::call("perlinTurb", [("color", color(base)?), ("octaves", count(octaves)), ("grid", real(grid)?)])
-        }
+        NoiseTexture::Turbulence { base, octaves, grid } => Node::call(
+            "perlinTurb",
+            [("color", color(base)?), ("octaves", count(octaves)), ("grid", real(grid)?)],
+        ),
         NoiseTexture::Fire { added, base, octaves, grid } => Node::call(
             "perlinFire",
             [
@@ -390,10 +397,11 @@ mod tests {
     #[test]
     fn shared_materials_are_defined_once_and_in_the_order_of_use() {
         let sphere = |color: &str| {
-            format!("(object ( sphere 1.5 (0.0,-2.0,0.0) ) ( texture ( diff solid {color} ) 0.3 20 0.0 0.0 ))")
+            format!(
+                "(object ( sphere 1.5 (0.0,-2.0,0.0) ) ( texture ( diff solid {color} ) 0.3 20 0.0 0.0 ))"
+            )
         };
-        let (red, green, blue) =
-            (sphere("(1.0,0.0,0.0)"), sphere("(0.0,1.0,0.0)"), sphere("(0.0,0.0,1.0)"));
+        let (red, green, blue) = (sphere("(1.0,0.0,0.0)"), sphere("(0.0,1.0,0.0)"), sphere("(0.0,0.0,1.0)"));
         let text = converted(&[red.clone(), green.clone(), blue, green, red].concat(), "");
         assert!(
             text.starts_with(
@@ -402,7 +410,10 @@ mod tests {
             ),
             "{text}"
         );
-        assert!(text.contains("    sphere { radius = 1.5, center = (0, -2, 0), material = material2 },\n"), "{text}");
+        assert!(
+            text.contains("    sphere { radius = 1.5, center = (0, -2, 0), material = material2 },\n"),
+            "{text}"
+        );
         assert_eq!(text.matches("rgb 0 0 1").count(), 1);
     }
 
@@ -420,7 +431,10 @@ mod tests {
     #[test]
     fn numbers_are_short_and_exact() {
         let text = |value: f64| number(value).unwrap().to_string();
-        assert_eq!([text(1.0), text(0.1), text(-2.5), text(1e300), text(1e-7)], ["1", "0.1", "-2.5", "1e300", "1e-7"]);
+        assert_eq!(
+            [text(1.0), text(0.1), text(-2.5), text(1e300), text(1e-7)],
+            ["1", "0.1", "-2.5", "1e300", "1e-7"]
+        );
         for value in [f64::MIN_POSITIVE, 5e-324, f64::MAX, 1.0 / 3.0, 123_456_789.125, -0.0] {
             assert_eq!(text(value).parse::<f64>().unwrap().to_bits(), value.to_bits());
         }

@@ -139,7 +139,8 @@ fn light<S: Simd>(simd: S, group: &Group<'_>, hits: &Hits<S>, walk: &mut Walk, c
         }
         let Toward { to_light, distance, intensity } = toward(simd, source, scene.exact, hits.point);
         let cosine = to_light.dot(hits.normal);
-        let away = cosine.simd_le(0.0);
+        // Not towards the light, or in the very place of it.
+        let away = !cosine.simd_gt(0.0);
         if scene.exact && away.all_true() {
             continue;
         }

@@ -1,7 +1,6 @@
 //! A text with everything that it imports, read and checked.
 
 use super::remarks::{self, Remark};
-use crate::{Language, classic};
 use crate::diagnostic::{Diagnostic, Severity, Span};
 use crate::hry::assets::Assets;
 use crate::hry::eval::{Limits, evaluate};
@@ -11,6 +10,7 @@ use crate::hry::program::{Program, standard};
 use crate::hry::sources::STANDARD_BASE;
 use crate::hry::types::{Checked, check};
 use crate::lint::{self, LintLevels};
+use crate::{Language, classic};
 use std::sync::Arc;
 
 /// The codes of errors that may only come from budgets that are smaller here than when a scene is rendered.
