@@ -50,6 +50,15 @@ pub(crate) enum Command {
     Fmt(FmtArgs),
     /// Turn a classic scene into one in hry that gives the same picture
     Convert(ConvertArgs),
+    /// Answer an editor: a language server on the standard input and output
+    #[command(
+        after_help = "Editors start it; see editors/vscode/README.md for how to tell them.\nThe protocol is the Language Server Protocol 3.17."
+    )]
+    Lsp {
+        /// Ignored: there is no other way to talk
+        #[arg(long, hide = true)]
+        stdio: bool,
+    },
     /// Print a script that lets a shell complete the commands and options
     #[command(
         after_help = "For example, for bash:\n  hray completions bash > ~/.local/share/bash-completion/completions/hray"

@@ -20,6 +20,7 @@ mod info;
 mod interrupt;
 mod job;
 mod lint_args;
+mod lsp;
 mod pattern;
 mod progress;
 mod render;
@@ -50,6 +51,7 @@ fn run(console: &Console) -> Result<(), Failure> {
         Some(Command::Info(arguments)) => info::run(arguments, console),
         Some(Command::Fmt(arguments)) => fmt::run(arguments, console),
         Some(Command::Convert(arguments)) => convert::run(arguments, console),
+        Some(Command::Lsp { .. }) => lsp::run(),
         Some(Command::Completions { shell }) => generate::completions(*shell, console),
         Some(Command::Man { command }) => generate::man(command.as_deref(), console),
     }

@@ -9,8 +9,6 @@ use crate::noise::cell;
 
 /// How far apart neighbouring cells are in the count that is hashed, along each axis: odd, without pattern.
 pub(crate) const STRIDES: [u64; 3] = [0x9E37_79B9_7F4A_7C15, 0xC2B2_AE3D_27D4_EB4F, 0x1656_67B1_9E37_79F9];
-/// The bits of a cell's number that count.
-pub(crate) const CELL_BITS: u64 = (1 << 51) - 1;
 /// What distinguishes the number that belongs to a feature point from its place.
 pub(crate) const IDENTITY: u64 = 0x2545_F491_4F6C_DD1D;
 
@@ -73,7 +71,7 @@ pub fn cells(seed: u64, p: [f64; 3]) -> [f64; 6] {
 fn feature(seed: u64, own: [u64; 3], offset: [i8; 3]) -> u64 {
     let mut number = mix(seed);
     for axis in 0..3 {
-        let cell = own[axis].wrapping_add_signed(offset[axis].into()) & CELL_BITS;
+        let cell = own[axis].wrapping_add_signed(offset[axis].into());
         number = number.wrapping_add(cell.wrapping_mul(STRIDES[axis]));
     }
     mix(number)

@@ -139,7 +139,7 @@ pub enum Binary {
 /// A family of noise: smooth random functions of a point, about in [-1, 1], 0 at whole coordinates.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum NoiseKind {
-    /// K. Perlin, "Improving Noise", SIGGRAPH 2002 (thesis [21]). Seed 0 is the published permutation; any
+    /// K. Perlin, "Improving Noise", SIGGRAPH 2002 (thesis, reference 21). Seed 0 is the published permutation; any
     /// other shuffles it.
     Improved,
     /// K. Perlin, "An Image Synthesizer", SIGGRAPH 1985, with the tables that the render is given. Seeds 0, 1

@@ -29,11 +29,11 @@ pub(crate) fn improved_permutation(seed: u64) -> [u8; 256] {
     permutation
 }
 
-/// Added to a whole number below 2^51 in magnitude, it leaves that number, modulo 2^51, in the low bits of the
-/// sum. Of larger numbers they are something else, but always the same.
+/// Added to a whole number below 2^51 in magnitude, it makes a sum whose bits count as the number does. Those of
+/// larger numbers are something else, but always the same.
 pub(crate) const LOW_BITS: f64 = (3u64 << 51) as f64;
 
-/// The cell of a coordinate, of which only the low 51 bits count.
+/// The cell of a coordinate, counted from a number whose low byte is 0.
 pub(crate) fn cell(x: f64) -> u64 {
     (x.floor() + LOW_BITS).to_bits()
 }
@@ -88,8 +88,8 @@ pub fn classic_noise(tables: &NoiseTables, seed: u64, [x, y, z]: [f64; 3]) -> f6
     let [i, j, k] = [x, y, z].map(|v| classic_cell(v + 256.0));
     let [x, y, z] = [x, y, z].map(|v| v - v.floor());
     let corner = |a: u64, b: u64, c: u64| {
-        let h = hash(hash(hash(i + a) + j + b) + k + c);
-        let g = tables.gradients()[h as usize];
+        let h = hash(hash(i + a) + j + b) + k + c;
+        let g = tables.gradients()[(h & 255) as usize];
         (x - a as f64) * g[0] + (y - b as f64) * g[1] + (z - c as f64) * g[2]
     };
     let [u, v, w] = [x, y, z].map(|t| t * t * (3.0 - 2.0 * t));
@@ -124,7 +124,7 @@ mod tests {
     /// What the reference implementation prints.
     #[test]
     fn improved_noise_is_the_published_one() {
-        assert_eq!(improved_noise(0, [3.14, 42.0, 7.0]), 0.136_919_958_784_000_12);
+        assert_eq!(improved_noise(0, [157.0 / 50.0, 42.0, 7.0]), 0.136_919_958_784_000_12);
     }
 
     #[test]

@@ -22,7 +22,8 @@ impl Language {
     #[must_use]
     pub fn of(text: &str) -> Self {
         let text = after_comments(text);
-        let word = |text: &str| text.chars().take_while(|c| c.is_alphanumeric() || *c == '_').collect::<String>();
+        let word =
+            |text: &str| text.chars().take_while(|c| c.is_alphanumeric() || *c == '_').collect::<String>();
         let first = word(text);
         if first == FIRST_WORD {
             return Self::Classic;
@@ -82,14 +83,29 @@ mod tests {
     #[test]
     fn the_first_word_decides() {
         let header = "( resolution (400,300) ) 3 [";
-        let classic = ["renderDescr", "\u{feff}\n renderDescr", "-- c\n{- a {- b -} -}renderDescr", "", "renderDesc",
-            "RenderDescr", "render_descr"];
+        let classic = [
+            "renderDescr",
+            "\u{feff}\n renderDescr",
+            "-- c\n{- a {- b -} -}renderDescr",
+            "",
+            "renderDesc",
+            "RenderDescr",
+            "render_descr",
+        ];
         for start in classic {
             assert_eq!(Language::of(&format!("{start} {header}")), Language::Classic, "{start}");
         }
         for hry in [
-            "", "scene = {}", "-- renderDescr\nscene = {}", "{- renderDescr", "renderDescription = 1", "renderDesc (x, y) = x",
-            "renderDesc = (resolution)", "import \"a.hry\"", "é (resolution)", "render (width, height) = 3",
+            "",
+            "scene = {}",
+            "-- renderDescr\nscene = {}",
+            "{- renderDescr",
+            "renderDescription = 1",
+            "renderDesc (x, y) = x",
+            "renderDesc = (resolution)",
+            "import \"a.hry\"",
+            "é (resolution)",
+            "render (width, height) = 3",
         ] {
             assert_eq!(Language::of(hry), Language::Hry, "{hry}");
         }

@@ -16,6 +16,7 @@ mod sampler;
 mod settings;
 mod statistics;
 
+pub use classic::MAX_SOLID_PARTS;
 pub use control::Control;
 pub use render::{RenderError, render};
 pub use settings::{MAX_SAMPLES, Region, RegionError, Settings};

@@ -1,6 +1,6 @@
 //! Runs of pixels, dealt out to threads and handed on in order.
 
-use crate::classic::{Integrator, Scratch, Stopped};
+use crate::classic::{Integrator, MAX_SOLID_PARTS, Scratch, Stopped, TooManyParts};
 use crate::sampler::PixelSamples;
 use crate::{Control, RayCounts, Settings, Statistics};
 use hray_core::{Description, NoiseTables, Rgb};
@@ -27,6 +27,8 @@ pub enum RenderError<E> {
     Cancelled,
     /// The threads could not be started.
     Threads,
+    /// The solids of the scene have more than [`MAX_SOLID_PARTS`] parts together.
+    Solids,
     /// Whoever takes the pixels failed.
     Sink(E),
 }
@@ -36,6 +38,11 @@ impl<E: fmt::Display> fmt::Display for RenderError<E> {
         match self {
             Self::Cancelled => f.write_str("the render was stopped"),
             Self::Threads => f.write_str("the system refused to start the threads that render"),
+            Self::Solids => write!(
+                f,
+                "the solids of the scene have more than {MAX_SOLID_PARTS} parts, counting one that is used twice \
+                 as two"
+            ),
             Self::Sink(error) => error.fmt(f),
         }
     }
@@ -53,7 +60,8 @@ impl<E: std::error::Error + 'static> std::error::Error for RenderError<E> {}
 /// Colours are as the integrator leaves them: in [0, 1], except that the background is not clipped.
 ///
 /// # Errors
-/// [`RenderError::Cancelled`] after [`Control::cancel`]; [`RenderError::Sink`] with the error of `consume`.
+/// [`RenderError::Cancelled`] after [`Control::cancel`]; [`RenderError::Sink`] with the error of `consume`;
+/// [`RenderError::Solids`] and [`RenderError::Threads`].
 pub fn render<T, E>(
     description: &Description,
     tables: &NoiseTables,
@@ -65,9 +73,10 @@ pub fn render<T, E>(
 where
     T: Send,
 {
+    let integrator = Integrator::new(description, tables).map_err(|TooManyParts| RenderError::Solids)?;
     let threads = settings.threads.or_else(|| std::thread::available_parallelism().ok());
-    let threads = threads.map_or(1, NonZeroUsize::get).min(Integrator::most_threads(settings.max_depth));
-    let job = Job::new(description, tables, settings, control, threads as u64);
+    let threads = threads.map_or(1, NonZeroUsize::get).min(integrator.most_threads(settings.max_depth));
+    let job = Job::new(integrator, settings, control, threads as u64);
     let threads = threads.min(usize::try_from(job.runs).unwrap_or(usize::MAX));
     let rays = if threads == 1 {
         job.render_here(encode, consume)?
@@ -87,18 +96,12 @@ struct Job<'a> {
 }
 
 impl<'a> Job<'a> {
-    fn new(
-        description: &Description,
-        tables: &NoiseTables,
-        settings: &'a Settings,
-        control: &'a Control,
-        threads: u64,
-    ) -> Self {
+    fn new(integrator: Integrator, settings: &'a Settings, control: &'a Control, threads: u64) -> Self {
         let samples = u64::from(settings.samples.get());
         let fair = settings.region.pixels() / threads.saturating_mul(RUNS_PER_THREAD);
         let pixels_per_run = fair.clamp(SMALLEST_RUN, RUN).min(RUN / samples).max(1);
         Self {
-            integrator: Integrator::new(description, tables),
+            integrator,
             settings,
             control,
             pixels_per_run,
@@ -213,11 +216,11 @@ impl<'a> Worker<'a> {
         for _ in first..last {
             let (x, y) = (region.x() + column, region.y() + row);
             if samples == NonZeroU32::MIN {
-                self.add(self.window_point(x, y, [0.0; 2]))?;
+                self.add(self.film_point(x, y, [0.0; 2]))?;
             } else {
                 let pixel_samples = PixelSamples::of(x, y);
                 for sample in 0..samples.get() {
-                    self.add(self.window_point(x, y, pixel_samples.offset(sample)))?;
+                    self.add(self.film_point(x, y, pixel_samples.offset(sample)))?;
                 }
             }
             column += 1;
@@ -254,14 +257,12 @@ impl<'a> Worker<'a> {
         Ok(())
     }
 
-    /// The point of the window that a sample of a pixel stands for: `mapToWin`, with `y` from the top.
-    fn window_point(&self, x: u32, y: u32, [dx, dy]: [f64; 2]) -> [f64; 2] {
+    /// The point of the film that a sample of a pixel stands for, with `y` from the top.
+    fn film_point(&self, x: u32, y: u32, [dx, dy]: [f64; 2]) -> [f64; 2] {
         let resolution = self.job.settings.resolution;
-        let (width, height) = (f64::from(resolution.width()), f64::from(resolution.height()));
-        let [window_width, window_height] = self.job.integrator.window();
         let px = f64::from(x) + dx;
         let py = f64::from(resolution.height() - 1 - y) + dy;
-        [(px - width / 2.0) * window_width / width, (py - height / 2.0) * window_height / height]
+        self.job.integrator.film_point(resolution, [px, py])
     }
 }
 
@@ -411,7 +412,14 @@ mod tests {
 
     #[test]
     fn the_memory_of_deep_recursion_limits_the_threads() {
-        assert!(Integrator::most_threads(10) >= 64);
-        assert!((1..=32).contains(&Integrator::most_threads(10_000)));
+        let most = |integrator, depth| {
+            let description = Description { integrator, ..spheres(1, 1) };
+            let Ok(integrator) = Integrator::new(&description, &NoiseTables::default()) else { panic!() };
+            integrator.most_threads(depth)
+        };
+        for integrator in [hray_core::Integrator::Classic2005, hray_core::Integrator::Classic] {
+            assert!(most(integrator, 10) >= 64);
+            assert!((1..=32).contains(&most(integrator, 10_000)));
+        }
     }
 }

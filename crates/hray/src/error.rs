@@ -21,6 +21,8 @@ pub enum Error {
     Cancelled,
     /// The system refused to start the threads that render.
     Threads,
+    /// The solids of the scene have more than [`crate::MAX_SOLID_PARTS`] parts together.
+    Solids,
     /// There is not enough memory for the colours of the picture.
     Memory {
         /// Bytes that were asked for.
@@ -40,6 +42,12 @@ impl fmt::Display for Error {
             Self::Threads => {
                 f.write_str("the system refused to start the threads that render; ask for fewer of them")
             }
+            Self::Solids => write!(
+                f,
+                "the solids of the scene (unions, intersections and differences) have more than {} parts \
+                 together; a solid that is used twice counts twice",
+                crate::MAX_SOLID_PARTS
+            ),
             Self::Memory { bytes } => write!(
                 f,
                 "there is not enough memory for the colours of this picture ({} MiB); render it to a file, \
@@ -58,7 +66,7 @@ impl std::error::Error for Error {
             Self::Options(error) => Some(error),
             Self::Format(error) => Some(error),
             Self::Output(error) => Some(error),
-            Self::Cancelled | Self::Threads | Self::Memory { .. } => None,
+            Self::Cancelled | Self::Threads | Self::Solids | Self::Memory { .. } => None,
         }
     }
 }

@@ -53,6 +53,7 @@ mod picture;
 mod render;
 mod scene_file;
 mod summary;
+mod work_folder;
 
 pub use error::{Error, LoadError};
 pub use findings::{Finding, FindingLabel, FindingPlace, FindingSuggestion, Findings};
@@ -62,6 +63,7 @@ pub use picture::Picture;
 pub use render::{render_frame, render_to, render_to_bytes, render_to_file, render_to_memory};
 pub use scene_file::{LoadOptions, Moments, SceneFile, load};
 pub use summary::{Bounds, CameraSummary, Materials, Objects, Summary, WorstCase};
+pub use work_folder::{OpenTexts, WorkAssets, WorkFolder};
 
 pub use hray_core::{
     Background, Camera, Csg, CsgOperation, Cuboid, DAffine3, DMat3, DVec2, DVec3, Description,
@@ -76,8 +78,12 @@ pub use hray_io::{
 };
 pub use hray_lang::Language;
 pub use hray_lang::classic::write as write_classic;
-pub use hray_lang::diagnostic::{Diagnostic, Severity};
+pub use hray_lang::diagnostic::{Diagnostic, Severity, Span};
+pub use hray_lang::hry::assets::Assets;
 pub use hray_lang::hry::eval::Limits;
+pub use hray_lang::hry::ide;
 pub use hray_lang::hry::{Sources, convert};
 pub use hray_lang::lint::{ALL_LINTS, CLASSIC_LINTS, LINTS, Level, Lint, LintLevels, UnknownLint, hry_lints};
-pub use hray_render::{Control, MAX_SAMPLES, RayCounts, Region, RegionError, Settings, Statistics};
+pub use hray_render::{
+    Control, MAX_SAMPLES, MAX_SOLID_PARTS, RayCounts, Region, RegionError, Settings, Statistics,
+};

@@ -32,7 +32,7 @@ pub fn render_to_file(
 /// so that memory does not grow with the picture, except in formats that want the whole of it at once.
 ///
 /// # Errors
-/// [`Error::Options`], [`Error::Output`], [`Error::Cancelled`], [`Error::Threads`].
+/// [`Error::Options`], [`Error::Output`], [`Error::Cancelled`], [`Error::Threads`], [`Error::Solids`].
 pub fn render_to(
     description: &Description,
     options: &Options,
@@ -69,6 +69,7 @@ fn from_render(error: RenderError<OutputError>) -> Error {
     match error {
         RenderError::Cancelled => Error::Cancelled,
         RenderError::Threads => Error::Threads,
+        RenderError::Solids => Error::Solids,
         RenderError::Sink(error) => Error::Output(error),
     }
 }
@@ -94,7 +95,7 @@ pub fn render_to_bytes(
 /// Renders to colours in double precision, 24 bytes a pixel.
 ///
 /// # Errors
-/// [`Error::Options`], [`Error::Cancelled`], [`Error::Threads`], [`Error::Memory`].
+/// [`Error::Options`], [`Error::Cancelled`], [`Error::Threads`], [`Error::Solids`], [`Error::Memory`].
 pub fn render_to_memory(
     description: &Description,
     options: &Options,
@@ -120,6 +121,7 @@ pub fn render_to_memory(
     .map_err(|error| match error {
         RenderError::Cancelled => Error::Cancelled,
         RenderError::Threads => Error::Threads,
+        RenderError::Solids => Error::Solids,
         RenderError::Sink(never) => match never {},
     })?;
     // A finished render has given every pixel of the region.

@@ -240,6 +240,9 @@ impl Moments<'_> {
         };
         let mut evaluated = evaluator.at(time);
         lint::apply(&checked.options.levels, &mut evaluated.diagnostics);
+        // What the checker saw in the text, the evaluator may find in the value.
+        let told = |span| checked.warnings.iter().any(|warning| warning.primary.span == span);
+        evaluated.diagnostics.retain(|found| found.is_error() || !told(found.primary.span));
         let mut file = SceneFile {
             language: Language::Hry,
             sources: self.file.sources.clone(),

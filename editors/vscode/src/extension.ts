@@ -57,6 +57,8 @@ async function start(): Promise<void> {
       { scheme: "file", language: "hry" },
       { scheme: "untitled", language: "hry" },
     ],
+    // Hovers over colours may show a swatch.
+    initializationOptions: { images: true },
     synchronize: { fileEvents: vscode.workspace.createFileSystemWatcher("**/*.{hry,png,jpg,jpeg,exr,hdr}") },
   };
   client = new LanguageClient("hray", "hray", server, options);

@@ -71,7 +71,10 @@ async function render(output: vscode.OutputChannel, scene: string, picture: stri
   const settings = vscode.workspace.getConfiguration("hray", uri);
   const command = settings.get<string>("path", "hray");
   const more = settings.get<string[]>("render.arguments", []);
-  const args = ["render", scene, "-o", picture, "--quiet", ...more];
+  // What the language server lets a scene import, rendering does, too.
+  const folder = vscode.workspace.getWorkspaceFolder(uri);
+  const root = folder === undefined ? [] : ["--root", folder.uri.fsPath];
+  const args = ["render", scene, "-o", picture, "--quiet", ...root, ...more];
   const progress = {
     location: vscode.ProgressLocation.Notification,
     title: `Rendering ${path.basename(scene)}`,

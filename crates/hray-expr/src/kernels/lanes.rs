@@ -20,11 +20,15 @@ const ZERO_LENGTH: f64 = 1e-9;
 /// Points, directions or colours, one per lane.
 #[derive(Clone, Copy)]
 pub struct Vec3<S: Simd> {
+    /// The first coordinates, or the red parts.
     pub x: Lanes<S>,
+    /// The second coordinates, or the green parts.
     pub y: Lanes<S>,
+    /// The third coordinates, or the blue parts.
     pub z: Lanes<S>,
 }
 
+#[allow(clippy::should_implement_trait, reason = "named alike, but always inlined and for one type each")]
 impl<S: Simd> Vec3<S> {
     /// The same three numbers in every lane.
     #[inline(always)]
@@ -50,6 +54,7 @@ impl<S: Simd> Vec3<S> {
         Self { x: gather(simd, x, places), y: gather(simd, y, places), z: gather(simd, z, places) }
     }
 
+    /// Puts the lanes into three columns, from `start` on.
     #[inline(always)]
     pub fn store(self, [x, y, z]: [&mut [f64]; 3], start: usize) {
         let end = start + Lanes::<S>::LEN;
@@ -58,26 +63,31 @@ impl<S: Simd> Vec3<S> {
         self.z.store_slice(&mut z[start..end]);
     }
 
+    /// Lane by lane, coordinate by coordinate.
     #[inline(always)]
     pub fn add(self, o: Self) -> Self {
         Self { x: self.x + o.x, y: self.y + o.y, z: self.z + o.z }
     }
 
+    /// Lane by lane, coordinate by coordinate.
     #[inline(always)]
     pub fn sub(self, o: Self) -> Self {
         Self { x: self.x - o.x, y: self.y - o.y, z: self.z - o.z }
     }
 
+    /// Lane by lane, coordinate by coordinate.
     #[inline(always)]
     pub fn mul(self, o: Self) -> Self {
         Self { x: self.x * o.x, y: self.y * o.y, z: self.z * o.z }
     }
 
+    /// All three coordinates times one number.
     #[inline(always)]
     pub fn scale(self, f: Lanes<S>) -> Self {
         Self { x: self.x * f, y: self.y * f, z: self.z * f }
     }
 
+    /// The scalar product, summed from x to z.
     #[inline(always)]
     pub fn dot(self, o: Self) -> Lanes<S> {
         self.x * o.x + self.y * o.y + self.z * o.z

@@ -8,13 +8,12 @@
 
 use super::lanes::{Lanes, MAX_LANES, Mask, Vec3};
 use crate::NoiseTables;
+use crate::noise::{LOW_BITS, classic_cell};
 use fearless_simd::f64x8;
 use fearless_simd::prelude::*;
 
 /// Below this magnitude the integer part of a coordinate can be read off the low bits of a double.
 const EXACT_CELLS: f64 = (1u64 << 50) as f64;
-/// Added to an integer below 2^51 in magnitude, it leaves that integer, modulo 2^51, in the low bits.
-const LOW_BITS: f64 = (3u64 << 51) as f64;
 /// More octaves than this are left to the definition: they cannot be seen, only waited for.
 const MAX_OCTAVES: u32 = 48;
 /// Below this, scaling by a power of two might not be exact; and from here on it might overflow.
@@ -24,7 +23,7 @@ const HUGE: f64 = 1e300;
 /// Noise tables, laid out for the kernel.
 pub struct Noise {
     /// Of each permutation P, the pairs (P(i), P(i + 1)) for i to 511, all modulo 256.
-    permutations: [[[u8; 2]; 512]; 3],
+    permutations: Box<[[[u8; 2]; 512]]>,
     /// Gradients one after the other, four numbers each, the last of them 0, and all of them twice: so those
     /// of neighbouring corners along z are neighbours, whatever the cell.
     gradients: Box<[f64; GRADIENTS]>,
@@ -61,15 +60,44 @@ enum Cells {
 }
 
 impl Noise {
+    /// With the three permutations of `tables`, which are the tables 0, 1 and 2.
+    #[must_use]
     pub fn new(tables: &NoiseTables) -> Self {
+        Self::with_seeds(tables, &[0, 1, 2])
+    }
+
+    /// With the permutations of some seeds ([`NoiseTables::permutation`]): the table of each is its place in
+    /// `seeds`.
+    #[must_use]
+    pub fn with_seeds(tables: &NoiseTables, seeds: &[u64]) -> Self {
         let mut gradients = Box::new([0.0; GRADIENTS]);
         for (i, row) in gradients.chunks_exact_mut(4).enumerate() {
             row[..3].copy_from_slice(&tables.gradients()[i & 255]);
         }
-        let pairs = |permutation: &[u8; 256]| {
+        let pairs = |seed: &u64| {
+            let permutation = tables.permutation(*seed);
             std::array::from_fn(|i| [permutation[i & 255], permutation[(i + 1) & 255]])
         };
-        Self { permutations: tables.permutations().each_ref().map(pairs), gradients }
+        Self { permutations: seeds.iter().map(pairs).collect(), gradients }
+    }
+
+    /// Noise at one point given in cells, in the bits of [`crate::classic_noise`].
+    #[must_use]
+    pub fn at(&self, table: usize, p: [f64; 3]) -> f64 {
+        self.noise_one(table, p)
+    }
+
+    /// Noise at points given in cells, which must be [ordinary](Self::are_ordinary).
+    #[inline(always)]
+    pub fn ordinary<S: Simd>(&self, simd: S, table: usize, p: Vec3<S>) -> Lanes<S> {
+        self.noise_lanes(simd, table, p)
+    }
+
+    /// Whether no coordinate of the points, times a number up to `most` in magnitude, is too large to have a cell.
+    #[inline(always)]
+    pub fn are_ordinary<S: Simd>(p: Vec3<S>, most: f64) -> bool {
+        let [x, y, z] = [p.x.abs() * most, p.y.abs() * most, p.z.abs() * most];
+        (x.simd_lt(EXACT_CELLS) & y.simd_lt(EXACT_CELLS) & z.simd_lt(EXACT_CELLS)).all_true()
     }
 
     /// The edges of a cell, from the low bytes of `key`: x, y, z.
@@ -215,12 +243,14 @@ impl Noise {
     }
 
     /// Noise at one point given in cells: the definition, for coordinates that the lanes cannot take.
+    #[cold]
+    #[inline(never)]
     fn noise_one(&self, table: usize, [x, y, z]: [f64; 3]) -> f64 {
         let curve = |t: f64| t * t * (3.0 - 2.0 * t);
         let mix = |t: f64, a: f64, b: f64| a + t * (b - a);
         let [x0, y0, z0] = [x, y, z].map(|v| v - v.floor());
         let [sx, sy, sz] = [x0, y0, z0].map(curve);
-        let [cx, cy, cz] = [x, y, z].map(|v| cell_of(v + 256.0));
+        let [cx, cy, cz] = [x, y, z].map(|v| classic_cell(v + 256.0));
         let edges = self.edges(table, cx | cy << 8 | cz << 16);
         let at = |edge: usize, rz: f64, g: &[f64]| {
             let rx = if edge & 1 == 0 { x0 } else { x0 - 1.0 };
@@ -340,13 +370,4 @@ fn fits<S: Simd>(v: Lanes<S>, top: f64) -> Mask<S> {
 #[inline(always)]
 fn cell<S: Simd>(x: Lanes<S>) -> S::u64s {
     ((x + 256.0).floor() + LOW_BITS).bitcast::<S::u64s>() & 255
-}
-
-/// The remainder of `floor(t)` modulo 256 through a 64-bit integer, with the overflow of GHC's `floor`: out of
-/// range becomes -2^63, from which one is taken where the argument is smaller still.
-fn cell_of(t: f64) -> u64 {
-    const LIMIT: f64 = (1u64 << 63) as f64;
-    let truncated = if (-LIMIT..LIMIT).contains(&t) { t as i64 } else { i64::MIN };
-    let floor = if t < truncated as f64 { truncated.wrapping_sub(1) } else { truncated };
-    (floor & 255) as u64
 }

@@ -12,7 +12,7 @@ use fearless_simd::prelude::*;
 
 type Bits<S> = <S as Simd>::u64s;
 
-/// Exponents from 3 (1 and 2 are special cases) to here are taken in lanes.
+/// Exponents below this in magnitude are taken in lanes.
 const LARGEST: f64 = (1u64 << 31) as f64;
 
 // log2(1.5) and 2 / (3 ln 2), each as a high part and a rest.
@@ -43,19 +43,34 @@ const P: [f64; 5] = [
     4.1381367970572385e-08,
 ];
 
-/// Each lane to the power `exponent`, a whole number.
+/// Each lane to the power `exponent`.
 #[inline(always)]
 pub fn power<S: Simd>(simd: S, base: Lanes<S>, exponent: f64) -> Lanes<S> {
+    if exponent == 2.0 {
+        return base * base;
+    }
     let size = base.abs();
     // Not zero, subnormal, infinite or not a number.
-    let ordinary = size.simd_ge(f64::MIN_POSITIVE) & size.simd_lt(f64::INFINITY);
-    if (3.0..LARGEST).contains(&exponent) && ordinary.all_true() {
+    let mut ordinary = size.simd_ge(f64::MIN_POSITIVE) & size.simd_lt(f64::INFINITY);
+    // An ordinary exponent fits an integer.
+    let integer = exponent as i64;
+    if integer as f64 != exponent {
+        ordinary &= base.simd_gt(0.0);
+    }
+    if is_ordinary(exponent) && ordinary.all_true() {
         let (result, settled) = ordinary_power(simd, size, exponent);
         if settled.all_true() {
-            return if exponent % 2.0 == 1.0 { result.copysign(base) } else { result };
+            // Where the exponent is not whole all bases are positive, and so is the sign.
+            return if integer & 1 == 1 { result.copysign(base) } else { result };
         }
     }
     one_by_one(simd, base, exponent)
+}
+
+/// Whether the exponent is no special case.
+#[inline(always)]
+fn is_ordinary(exponent: f64) -> bool {
+    exponent.abs() < LARGEST && ![0.0, 0.5, 1.0, -1.0].contains(&exponent)
 }
 
 fn one_by_one_into(base: &[f64], exponent: f64, result: &mut [f64]) {
@@ -202,6 +217,16 @@ mod tests {
         #[test]
         fn as_libm_on_cosines(bases in proptest::array::uniform8(-1.0..1.0f64), exponent in 0..300i32) {
             check(bases, f64::from(exponent));
+        }
+
+        /// Exponents that are not whole.
+        #[test]
+        fn as_libm_on_fractions(
+            bases in proptest::array::uniform8(0.0..4.0f64),
+            sign in proptest::bool::ANY,
+            exponent in prop_oneof![-8.0..8.0f64, (-40i32..40).prop_map(|n| f64::from(n) / 4.0)],
+        ) {
+            check(bases.map(|base| if sign { -base } else { base }), exponent);
         }
 
         /// Near 1, where the logarithm cancels, and large exponents.

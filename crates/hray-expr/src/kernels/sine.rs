@@ -1,7 +1,7 @@
-//! The sine of marble and wood, several arguments at a time, in the bits of [`libm::sin`].
+//! Sine and cosine, several arguments at a time, in the bits of [`libm::sin`] and [`libm::cos`].
 //!
 //! As with [`power`](super::power), the lanes follow the algorithm of `libm` operation by operation: FreeBSD's
-//! `s_sin.c`, `e_rem_pio2.c`, `k_sin.c` and `k_cos.c` (Sun Microsystems, 1993). The argument is reduced by the
+//! `s_sin.c`, `s_cos.c`, `e_rem_pio2.c`, `k_sin.c` and `k_cos.c` (Sun Microsystems, 1993). The argument is reduced by the
 //! nearest multiple of pi/2, as two doubles, and a polynomial of sine or cosine taken of the rest. Arguments
 //! that need more than one round of reduction, and those so close to the seam between two multiples that
 //! `libm` decides by a table, are left to it.
@@ -43,28 +43,76 @@ const C: [f64; 6] = [
 /// The sine of each lane, in radians.
 #[inline(always)]
 pub fn sine<V: Simd>(simd: V, x: Lanes<V>) -> Lanes<V> {
-    let size = x.abs();
-    let high = size.bitcast::<V::u64s>() >> 32;
-    let mut ordinary: Mask<V> = size.simd_lt(LARGEST);
+    let high = x.abs().bitcast::<V::u64s>() >> 32;
+    if ordinary::<V>(x, high).all_true() {
+        let Reduced { y0, y1, quadrant, direct, settled } = reduced(simd, x, high);
+        if settled.all_true() {
+            let odd: Mask<V> = (quadrant & 1).simd_eq(1);
+            let reduced = odd.select(k_cos(simd, y0, y1), k_sin(y0, y1));
+            let negative: Mask<V> = quadrant.simd_ge(2);
+            let reduced = negative.select(-reduced, reduced);
+            let tiny = x.abs().simd_lt(1.0 / 67_108_864.0);
+            let small = tiny.select(x, k_sin_alone::<V>(x));
+            return direct.select(small, reduced);
+        }
+    }
+    one_by_one(simd, x, libm::sin)
+}
+
+/// The cosine of each lane, in radians.
+#[inline(always)]
+pub fn cosine<V: Simd>(simd: V, x: Lanes<V>) -> Lanes<V> {
+    let high = x.abs().bitcast::<V::u64s>() >> 32;
+    if ordinary::<V>(x, high).all_true() {
+        let Reduced { y0, y1, quadrant, direct, settled } = reduced(simd, x, high);
+        if settled.all_true() {
+            let zero = Lanes::<V>::splat(simd, 0.0);
+            // What is its own remainder is so in quadrant 0, though it may be a little above pi/4.
+            let (y0, y1) = (direct.select(x, y0), direct.select(zero, y1));
+            let quadrant = direct.select(V::u64s::splat(simd, 0), quadrant);
+            let odd: Mask<V> = (quadrant & 1).simd_eq(1);
+            let reduced = odd.select(k_sin(y0, y1), k_cos(simd, y0, y1));
+            let negative: Mask<V> = ((quadrant + 1) & 2).simd_eq(2);
+            return negative.select(-reduced, reduced);
+        }
+    }
+    one_by_one(simd, x, libm::cos)
+}
+
+/// The lanes that need no longer pi and are not at a seam.
+#[inline(always)]
+fn ordinary<V: Simd>(x: Lanes<V>, high: V::u64s) -> Mask<V> {
+    let mut ordinary: Mask<V> = x.abs().simd_lt(LARGEST);
     for seam in SEAMS {
         ordinary &= !high.simd_eq(seam);
     }
-    if ordinary.all_true() {
-        let (result, settled) = ordinary_sine(simd, x, high);
-        if settled.all_true() {
-            return result;
-        }
-    }
+    ordinary
+}
+
+#[inline(always)]
+fn one_by_one<V: Simd>(simd: V, x: Lanes<V>, f: fn(f64) -> f64) -> Lanes<V> {
     let mut result = [0.0; MAX_LANES];
     for (result, &x) in result.iter_mut().zip(x.as_slice()) {
-        *result = libm::sin(x);
+        *result = f(x);
     }
     Lanes::<V>::from_slice(simd, &result[..Lanes::<V>::LEN])
 }
 
-/// The sine, and the lanes in which one round of reduction is enough for it.
+/// Angles less a whole number of right angles.
+struct Reduced<V: Simd> {
+    /// The rest, in [-pi/4, pi/4], and its tail.
+    y0: Lanes<V>,
+    y1: Lanes<V>,
+    /// The number of right angles, modulo 4.
+    quadrant: V::u64s,
+    /// The lanes whose angles `libm` does not reduce.
+    direct: Mask<V>,
+    /// The lanes in which one round of reduction is enough.
+    settled: Mask<V>,
+}
+
 #[inline(always)]
-fn ordinary_sine<V: Simd>(simd: V, x: Lanes<V>, high: V::u64s) -> (Lanes<V>, Mask<V>) {
+fn reduced<V: Simd>(_: V, x: Lanes<V>, high: V::u64s) -> Reduced<V> {
     let whole = x * INV_PIO2 + TO_WHOLE;
     let quadrant = whole.bitcast::<V::u64s>() & 3;
     let n = whole - TO_WHOLE;
@@ -76,14 +124,7 @@ fn ordinary_sine<V: Simd>(simd: V, x: Lanes<V>, high: V::u64s) -> (Lanes<V>, Mas
     let rest = (y0.abs().bitcast::<V::u64s>() >> 52) + 16;
     let direct: Mask<V> = high.simd_le(QUARTER_PI);
     let settled = direct | (high >> 20).simd_le(rest);
-
-    let odd: Mask<V> = (quadrant & 1).simd_eq(1);
-    let reduced = odd.select(k_cos(simd, y0, y1), k_sin(y0, y1));
-    let negative: Mask<V> = quadrant.simd_ge(2);
-    let reduced = negative.select(-reduced, reduced);
-    let tiny = x.abs().simd_lt(1.0 / 67_108_864.0);
-    let small = tiny.select(x, k_sin_alone::<V>(x));
-    (direct.select(small, reduced), settled)
+    Reduced { y0, y1, quadrant, direct, settled }
 }
 
 /// The sine of x + y in [-pi/4, pi/4], where y is the tail of x.
@@ -129,23 +170,27 @@ mod tests {
     use std::f64::consts::FRAC_PI_4;
 
     #[inline(always)]
-    fn sine_of_all<V: Simd>(simd: V, x: &[f64; MAX_LANES]) -> [f64; MAX_LANES] {
-        let mut result = [0.0; MAX_LANES];
-        for (from, to) in x.chunks(Lanes::<V>::LEN).zip(result.chunks_mut(Lanes::<V>::LEN)) {
-            sine(simd, Lanes::<V>::from_slice(simd, from)).store_slice(to);
+    fn both_of_all<V: Simd>(simd: V, x: &[f64; MAX_LANES]) -> [[f64; MAX_LANES]; 2] {
+        let mut result = [[0.0; MAX_LANES]; 2];
+        for start in (0..MAX_LANES).step_by(Lanes::<V>::LEN) {
+            let x = Lanes::<V>::from_slice(simd, &x[start..start + Lanes::<V>::LEN]);
+            sine(simd, x).store_slice(&mut result[0][start..start + Lanes::<V>::LEN]);
+            cosine(simd, x).store_slice(&mut result[1][start..start + Lanes::<V>::LEN]);
         }
         result
     }
 
     fn check(x: [f64; MAX_LANES]) {
         for level in [Level::new(), Level::baseline()] {
-            let result = dispatch!(level, simd => sine_of_all(simd, &x));
-            for (x, result) in x.iter().zip(result) {
-                let expected = libm::sin(*x);
-                assert!(
-                    result.to_bits() == expected.to_bits() || (result.is_nan() && expected.is_nan()),
-                    "sin {x:e}: {result:e} instead of {expected:e}"
-                );
+            let [sines, cosines] = dispatch!(level, simd => both_of_all(simd, &x));
+            for (x, (sine, cosine)) in x.iter().zip(sines.into_iter().zip(cosines)) {
+                for (name, result, expected) in [("sin", sine, libm::sin(*x)), ("cos", cosine, libm::cos(*x))]
+                {
+                    assert!(
+                        result.to_bits() == expected.to_bits() || (result.is_nan() && expected.is_nan()),
+                        "{name} {x:e}: {result:e} instead of {expected:e}"
+                    );
+                }
             }
         }
     }

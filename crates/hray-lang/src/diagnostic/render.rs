@@ -75,7 +75,9 @@ impl Page<'_> {
                     .annotations(annotations)
             }),
         );
-        if let (true, Some(file)) = (shown.is_empty(), spans.first().and_then(|(file, _)| self.files.get(*file))) {
+        if let (true, Some(file)) =
+            (shown.is_empty(), spans.first().and_then(|(file, _)| self.files.get(*file)))
+        {
             group = group.element(Origin::path(&file.name));
         }
         group = group.elements(diagnostic.notes.iter().map(|note| Level::NOTE.message(clean_lines(note))));
@@ -130,7 +132,8 @@ impl Page<'_> {
     fn patched<'s>(&self, suggestion: &'s Suggestion) -> Option<(&File<'_>, Excerpt, Patch<'s>)> {
         let (number, span) = self.files.local(suggestion.span);
         let file = self.files.get(number)?;
-        let fits = span.start + file.base == suggestion.span.start && span.end + file.base == suggestion.span.end;
+        let fits =
+            span.start + file.base == suggestion.span.start && span.end + file.base == suggestion.span.end;
         let one_line = fits && !suggestion.replacement.contains(['\n', '\r']);
         if !one_line || suggestion.replacement.len() > LONGEST_PATCH {
             return None;

@@ -2,8 +2,8 @@
 
 use glam::DVec3;
 use hray_core::{
-    Background, Camera, Description, Encoding, Field, Integrator, Light, Material, NoiseTexture, Primitive, Rgb, Shape,
-    Texture,
+    Background, Camera, Description, Encoding, Field, Integrator, Light, Material, NoiseTexture, Primitive,
+    Rgb, Shape, Texture,
 };
 use std::collections::BTreeMap;
 use std::fmt::{self, Write as _};
@@ -15,12 +15,12 @@ const WIDTH: usize = 100;
 /// the bit (but for the sign of an offset of 0), so that the picture is the same.
 ///
 /// Materials that several objects share are definitions of their own. What only hry can say (transforms, solids,
-/// functions of a hit, other cameras, lights and integrators) and what only the classic language can say (a radius that is
-/// not positive, a plane without a direction, numbers that are not finite) give none.
+/// functions of a hit, other cameras, lights and integrators) and numbers that are not finite give none.
 #[must_use]
 pub fn convert(description: &Description) -> Option<String> {
     let scene = &description.scene;
-    let as_in_2005 = (description.integrator, description.encoding) == (Integrator::Classic2005, Encoding::Raw);
+    let as_in_2005 =
+        (description.integrator, description.encoding) == (Integrator::Classic2005, Encoding::Raw);
     if !as_in_2005 || scene.time != 0.0 {
         return None;
     }
@@ -228,21 +228,26 @@ fn object(primitive: &Primitive, materials: &Materials) -> Option<Node> {
         return None;
     }
     Some(match &primitive.shape {
-        Shape::Sphere(sphere) if sphere.radius > 0.0 => Node::call(
+        Shape::Sphere(sphere) => Node::call(
             "sphere",
             [("radius", real(sphere.radius)?), ("center", vector(sphere.center)?), ("material", material)],
         ),
         // The thesis writes n · p + d = 0, hry n · p = offset.
-        Shape::Plane(plane) if plane.normal != DVec3::ZERO => Node::call(
+        Shape::Plane(plane) => Node::call(
             "plane",
-            [("normal", vector(plane.normal)?), ("offset", real(0.0 - plane.offset)?), ("material", material)],
+            [
+                ("normal", vector(plane.normal)?),
+                ("offset", real(0.0 - plane.offset)?),
+                ("material", material),
+            ],
         ),
-        Shape::Sphere(_) | Shape::Plane(_) | Shape::Cuboid(_) | Shape::Csg(_) => return None,
+        Shape::Cuboid(_) | Shape::Csg(_) => return None,
     })
 }
 
 fn material(material: &Material) -> Option<Node> {
-    let Material { texture, reflection, shine, transmission, refractive_index, highlight, glow, bump } = material;
+    let Material { texture, reflection, shine, transmission, refractive_index, highlight, glow, bump } =
+        material;
     if highlight.is_some() || glow.is_some() || bump.is_some() {
         return None;
     }
@@ -281,9 +286,10 @@ fn noise_texture(noise: &NoiseTexture) -> Option<Node> {
             "perlinSemiTurb",
             [("color", color(base)?), ("octaves", count(octaves)), ("grid", real(grid)?)],
         ),
-        NoiseTexture::Turbulence { base, octaves, grid } => {
-            Node::call("perlinTurb", [("color", color(base)?), ("octaves", count(octaves)), ("grid", real(grid)?)])
-        }
+        NoiseTexture::Turbulence { base, octaves, grid } => Node::call(
+            "perlinTurb",
+            [("color", color(base)?), ("octaves", count(octaves)), ("grid", real(grid)?)],
+        ),
         NoiseTexture::Fire { added, base, octaves, grid } => Node::call(
             "perlinFire",
             [
@@ -390,10 +396,11 @@ mod tests {
     #[test]
     fn shared_materials_are_defined_once_and_in_the_order_of_use() {
         let sphere = |color: &str| {
-            format!("(object ( sphere 1.5 (0.0,-2.0,0.0) ) ( texture ( diff solid {color} ) 0.3 20 0.0 0.0 ))")
+            format!(
+                "(object ( sphere 1.5 (0.0,-2.0,0.0) ) ( texture ( diff solid {color} ) 0.3 20 0.0 0.0 ))"
+            )
         };
-        let (red, green, blue) =
-            (sphere("(1.0,0.0,0.0)"), sphere("(0.0,1.0,0.0)"), sphere("(0.0,0.0,1.0)"));
+        let (red, green, blue) = (sphere("(1.0,0.0,0.0)"), sphere("(0.0,1.0,0.0)"), sphere("(0.0,0.0,1.0)"));
         let text = converted(&[red.clone(), green.clone(), blue, green, red].concat(), "");
         assert!(
             text.starts_with(
@@ -402,7 +409,10 @@ mod tests {
             ),
             "{text}"
         );
-        assert!(text.contains("    sphere { radius = 1.5, center = (0, -2, 0), material = material2 },\n"), "{text}");
+        assert!(
+            text.contains("    sphere { radius = 1.5, center = (0, -2, 0), material = material2 },\n"),
+            "{text}"
+        );
         assert_eq!(text.matches("rgb 0 0 1").count(), 1);
     }
 
@@ -420,7 +430,10 @@ mod tests {
     #[test]
     fn numbers_are_short_and_exact() {
         let text = |value: f64| number(value).unwrap().to_string();
-        assert_eq!([text(1.0), text(0.1), text(-2.5), text(1e300), text(1e-7)], ["1", "0.1", "-2.5", "1e300", "1e-7"]);
+        assert_eq!(
+            [text(1.0), text(0.1), text(-2.5), text(1e300), text(1e-7)],
+            ["1", "0.1", "-2.5", "1e300", "1e-7"]
+        );
         for value in [f64::MIN_POSITIVE, 5e-324, f64::MAX, 1.0 / 3.0, 123_456_789.125, -0.0] {
             assert_eq!(text(value).parse::<f64>().unwrap().to_bits(), value.to_bits());
         }

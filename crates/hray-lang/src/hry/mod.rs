@@ -8,6 +8,7 @@ pub mod format;
 pub mod ide;
 pub mod library;
 pub mod program;
+pub mod reference;
 mod sources;
 pub mod syntax;
 pub mod types;

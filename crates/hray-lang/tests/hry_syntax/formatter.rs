@@ -79,6 +79,28 @@ fn nothing_and_comments_alone_are_kept() {
     assert_eq!(format("\u{feff}a=1\r\n").as_deref(), Ok("a = 1\n"));
 }
 
+/// The standard library and the examples keep their meaning too.
+#[test]
+fn the_files_of_the_project_can_be_formatted() {
+    let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR"));
+    let mut count = 0;
+    for folder in ["std", "../../examples"] {
+        let Ok(files) = std::fs::read_dir(root.join(folder)) else { continue };
+        let hry = files
+            .flatten()
+            .map(|file| file.path())
+            .filter(|path| path.extension().is_some_and(|end| end == "hry"));
+        for path in hry {
+            let text = std::fs::read_to_string(&path).expect("a file of the project");
+            if !text.trim_start().starts_with("renderDescr") && parse(&text, 0).errors().is_empty() {
+                holds(&text).expect("a file that can be formatted");
+                count += 1;
+            }
+        }
+    }
+    assert!(count > 3);
+}
+
 /// Each a text, and its layout beside it as a snapshot.
 macro_rules! layouts {
     ($($name:ident: $text:expr;)+) => {$(

@@ -366,10 +366,11 @@ impl Pen {
 
     fn range(&mut self, items: &[Tree]) {
         self.bracketed("[", "]", |pen| {
-            let (last, first) = items.split_last().expect("a range has elements");
-            pen.separated(first, false, Self::tree);
-            pen.word("..");
-            pen.tree(last);
+            if let Some((last, first)) = items.split_last() {
+                pen.separated(first, false, Self::tree);
+                pen.word("..");
+                pen.tree(last);
+            }
         });
     }
 

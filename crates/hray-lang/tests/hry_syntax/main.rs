@@ -2,4 +2,6 @@
 
 mod formatter;
 mod generate;
+mod mistakes;
+mod parsing;
 mod properties;

@@ -1,5 +1,6 @@
 //! What holds for every text.
 
+use hray_lang::diagnostic::render;
 use hray_lang::hry::syntax::parse;
 use proptest::prelude::*;
 
@@ -100,7 +101,9 @@ fn pieces() -> impl Strategy<Value = String> {
 }
 
 fn holds(text: &str) -> Result<(), TestCaseError> {
+    let shown = render(parse(text, 0).errors(), "scene.hry", text, false);
     let parse = parse(text, 1000);
+    prop_assert_eq!(shown.is_empty(), parse.errors().is_empty());
     prop_assert_eq!(parse.root().text().to_string(), text);
     let module = parse.module();
     for error in parse.errors() {

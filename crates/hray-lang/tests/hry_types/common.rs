@@ -31,9 +31,10 @@ pub(crate) fn checked(text: &str, files: &Files) -> (Program, Checked, Vec<Diagn
     let program = Program::load("scene.hry", "scene.hry", text.into(), &[], files, &mut diagnostics);
     let checked = check(&program, &mut diagnostics);
     for span in diagnostics.iter().flat_map(Diagnostic::spans) {
-        let fits = program.sources.file(span.start).is_some_and(|file| {
-            file.text.get(span.start - file.base..span.end - file.base).is_some()
-        });
+        let fits = program
+            .sources
+            .file(span.start)
+            .is_some_and(|file| file.text.get(span.start - file.base..span.end - file.base).is_some());
         assert!(fits, "{span:?} does not fit\n{diagnostics:?}");
     }
     (program, checked, diagnostics)

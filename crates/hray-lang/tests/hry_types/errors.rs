@@ -74,10 +74,10 @@ mistakes! {
         without_its_size: "tiles : Number -> Hit -> Color\ntiles size h = white * h.p.x / size\na = classic { color = tiles }";
         vector_from_a_texture: "a = classic { color = \\h -> h.p }";
         number_for_bumps: "a = classic { bump = 0.5 }";
-        radius_of_zero: "a = sphere { radius = 0 }";
+        size_of_zero: "a = cube { size = 0 }";
         negative_size: "a = box { size = (1, -1, 2) }";
         degrees_for_radians: "a = perspective { from = (0, 0, 5), fov = 40 }";
-        no_direction: "a = plane { normal = (0, 0, 0) }";
+        no_direction: "a = directional { direction = (0, 0, 0) }";
     }
 
     constructors {

@@ -13,14 +13,15 @@ scene = { objects = [ ball 1 |> paint (classic { color = tiles }) ] }
 
 /// The offset of the n-th occurrence of a piece of text.
 fn at(piece: &str, n: usize) -> usize {
-    TEXT.match_indices(piece).nth(n).unwrap().0
+    TEXT.match_indices(piece).nth(n).map_or(usize::MAX, |(offset, _)| offset)
 }
 
 #[test]
 fn types() {
     let (_, checked, diagnostics) = checked(TEXT, &Files(&[]));
     assert_eq!(diagnostics, []);
-    let type_at = |offset| checked.type_at(offset).map(|(span, ty)| (span.text(TEXT).to_owned(), ty)).unwrap();
+    let type_at =
+        |offset| checked.type_at(offset).map(|(span, ty)| (span.text(TEXT).to_owned(), ty)).unwrap();
     let pair = |text: &str, ty: &str| (text.to_owned(), ty.to_owned());
     assert_eq!(type_at(at("size", 0)), pair("size", "Number"));
     assert_eq!(type_at(at("tiles", 0)), pair("tiles", "Hit -> Color"));
@@ -44,7 +45,9 @@ fn definitions_and_references() {
     assert_eq!(places(at("r = sphere", 0)), [at("r = sphere", 0), at("r, center", 0)]);
     assert_eq!(places(at("r, center", 0)), [at("r = sphere", 0), at("r, center", 0)]);
     assert_eq!(places(at("q.x", 0)), [at("q = ", 0), at("q.x", 0)]);
-    assert!(matches!(checked.definition_at(at("radius", 0)), Some(Target::Field(c, f)) if c.name == "sphere" && f.name == "radius"));
+    assert!(
+        matches!(checked.definition_at(at("radius", 0)), Some(Target::Field(c, f)) if c.name == "sphere" && f.name == "radius")
+    );
     assert!(matches!(checked.definition_at(at("mix", 0)), Some(Target::Global(_))));
     assert!(checked.definition_at(at("= 2", 0)).is_none());
 }
@@ -52,13 +55,15 @@ fn definitions_and_references() {
 #[test]
 fn completion() {
     let (_, checked, _) = checked(TEXT, &Files(&[]));
-    let fields: Vec<String> = checked.completion_at(at("p / size", 0)).fields.into_iter().map(|(name, _)| name).collect();
+    let fields: Vec<String> =
+        checked.completion_at(at("p / size", 0)).fields.into_iter().map(|(name, _)| name).collect();
     assert_eq!(fields, ["p", "world", "normal", "uv", "time"]);
     let inside = checked.completion_at(at("radius", 0));
     let (constructor, given) = inside.record.unwrap();
     assert_eq!((constructor.name, given), ("sphere", vec!["radius", "center"]));
     assert_eq!(inside.locals, [("r".to_owned(), "Number".to_owned())]);
-    let names: Vec<String> = checked.completion_at(at("mix", 0)).locals.into_iter().map(|(name, _)| name).collect();
+    let names: Vec<String> =
+        checked.completion_at(at("mix", 0)).locals.into_iter().map(|(name, _)| name).collect();
     assert_eq!(names, ["q", "h"]);
 }
 

@@ -15,7 +15,10 @@ fn of_definitions_beside_a_scene() {
         ("constant_condition", "_a = if true then 1 else 2"),
         ("division_by_zero", "_a = 1 / 0\n_b = 5 % 0"),
         ("share", "_a = classic { reflection = 2, transparency = -0.1 }"),
-        ("negative_light", "_a = ambient { intensity = -1 }\n_b = point { position = (0, 0, 0), intensity = rgb 1 -1 0 }"),
+        (
+            "negative_light",
+            "_a = ambient { intensity = -1 }\n_b = point { position = (0, 0, 0), intensity = rgb 1 -1 0 }",
+        ),
     ] {
         assert_snapshot!(name, shown(&with_scene(text)));
     }
@@ -87,7 +90,9 @@ fn every_warning_has_its_explanation() {
     assert!(LINTS.is_sorted_by(|a, b| a.code < b.code));
     let kebab = |c: char| c.is_ascii_lowercase() || c == '-';
     assert!(LINTS.iter().all(|lint| lint.code.chars().all(kebab)));
-    let text = with_scene("a = 1\n_b = if true then 1 / 0 else let c = 2 in 3\n_f c = \\c -> match c { _ -> 1, 1 -> 2 }\n_d = classic { reflection = 2 }\n_e = ambient { intensity = -1 }");
+    let text = with_scene(
+        "a = 1\n_b = if true then 1 / 0 else let c = 2 in 3\n_f c = \\c -> match c { _ -> 1, 1 -> 2 }\n_d = classic { reflection = 2 }\n_e = ambient { intensity = -1 }",
+    );
     let (_, _, diagnostics) = checked(&text, &Files(&[]));
     assert!(diagnostics.iter().all(|diagnostic| !diagnostic.is_error()), "{diagnostics:#?}");
     let known = |diagnostic: &Diagnostic| LINTS.iter().any(|lint| lint.code == diagnostic.code);

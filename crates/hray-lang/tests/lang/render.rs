@@ -67,10 +67,11 @@ fn sources() -> (Sources, usize) {
 fn labels_are_shown_in_their_own_files() {
     let (sources, palette) = sources();
     let two = Span::new(palette + 4, palette + 7);
-    let diagnostic = Diagnostic::error("several-files", "two files do not agree", Span::new(29, 33), "used here")
-        .with_secondary(two, "defined here")
-        .with_secondary(Span::new(0, 6), "imported here")
-        .with_suggestion(two, "2", "write a number");
+    let diagnostic =
+        Diagnostic::error("several-files", "two files do not agree", Span::new(29, 33), "used here")
+            .with_secondary(two, "defined here")
+            .with_secondary(Span::new(0, 6), "imported here")
+            .with_suggestion(two, "2", "write a number");
     assert_snapshot!("several_files", render_sources(&[diagnostic], &sources, false));
     let library = Span::new(STANDARD_BASE, STANDARD_BASE + 3);
     let diagnostic = Diagnostic::warning("library", "something of the library", two, "here")
@@ -82,7 +83,8 @@ fn labels_are_shown_in_their_own_files() {
 #[test]
 fn what_is_missing_from_a_file_has_no_place_in_it() {
     let (sources, palette) = sources();
-    let diagnostic = |at| Diagnostic::error("no-scene", "there is no `scene`", Span::at(at), "").with_help("define it");
+    let diagnostic =
+        |at| Diagnostic::error("no-scene", "there is no `scene`", Span::at(at), "").with_help("define it");
     assert_snapshot!("no_place", render_sources(&[diagnostic(0), diagnostic(palette)], &sources, false));
     assert_eq!(render_sources(&[diagnostic(0)], &Sources::default(), false).lines().count(), 3);
 }

@@ -1,5 +1,6 @@
 //! One level of the recursion: a batch of rays, what they hit, and what is still owed to them.
 
+use super::material::FIELDS;
 use hray_expr::kernels::lanes::MAX_LANES;
 
 /// Columns of doubles that grow together.
@@ -43,11 +44,11 @@ impl<const N: usize> Columns<N> {
 /// What the rays of a frame see where they hit nothing.
 #[derive(Clone, Copy, PartialEq)]
 pub(super) enum Background {
-    /// The scene's own, for rays from the camera.
+    /// The scene's own.
     Scene,
-    /// Black, for mirrored rays.
+    /// Black, for the thesis' mirrored rays.
     Black,
-    /// One colour per ray, for refracted rays.
+    /// One colour per ray, for the thesis' refracted rays.
     PerRay,
 }
 
@@ -59,10 +60,10 @@ pub(super) enum Phase {
     AfterRefraction,
 }
 
-/// Hits of one primitive, consecutive in the hit columns from a multiple of the vector width.
+/// Hits of one leaf, consecutive in the hit columns from a multiple of the vector width.
 #[derive(Clone, Copy)]
 pub(super) struct Group {
-    pub(super) primitive: usize,
+    pub(super) leaf: usize,
     pub(super) start: usize,
     pub(super) len: usize,
 }
@@ -78,7 +79,7 @@ pub(super) struct Frame {
     pub(super) behind: Columns<3>,
     /// Where the colour of each ray goes in the hits of the frame above.
     pub(super) parent: Vec<u32>,
-    /// Distance to the nearest hit, and its primitive, counted from [`NOTHING`].
+    /// Distance to the nearest hit, and its leaf, counted from [`NOTHING`].
     pub(super) nearest: Columns<2>,
     pub(super) color: Columns<3>,
 
@@ -89,6 +90,24 @@ pub(super) struct Frame {
     pub(super) hit_normal: Columns<3>,
     pub(super) hit_direction: Columns<3>,
     pub(super) hit_color: Columns<3>,
+    /// By the exact rules: the unit geometric normal that faces the viewer, how far along it a ray has to start,
+    /// and 1 where the viewer is on the outside, else -1.
+    pub(super) hit_side: Columns<5>,
+    /// Where functions or placed noise ask for it: the point in object space.
+    pub(super) hit_object: Columns<3>,
+    /// Where functions ask for them: the surface parameters.
+    pub(super) hit_uv: Columns<2>,
+    /// Where functions are evaluated: what they give.
+    pub(super) fields: Columns<FIELDS>,
+}
+
+/// Which columns of a frame a scene has a use for.
+#[derive(Clone, Copy)]
+pub(super) struct Uses {
+    pub(super) sides: bool,
+    pub(super) object: bool,
+    pub(super) uv: bool,
+    pub(super) fields: bool,
 }
 
 impl Frame {
@@ -109,6 +128,10 @@ impl Frame {
             hit_normal: Columns::new(),
             hit_direction: Columns::new(),
             hit_color: Columns::new(),
+            hit_side: Columns::new(),
+            hit_object: Columns::new(),
+            hit_uv: Columns::new(),
+            fields: Columns::new(),
         }
     }
 
@@ -125,25 +148,26 @@ impl Frame {
         }
     }
 
-    /// Sorts the rays that hit something by what they hit: fills `groups` and `slot`.
+    /// Sorts the rays that hit something by what they hit: fills `groups` and `slot`, and makes room in the columns
+    /// of hits.
     ///
     /// Every group starts at a multiple of the vector width; the lanes up to there repeat the last ray of the
     /// group before. Within a group the rays keep their order.
-    pub(super) fn group_hits(&mut self, primitives: usize, keys: &mut Vec<u64>) {
+    pub(super) fn group_hits(&mut self, leaves: usize, uses: Uses, keys: &mut Vec<u64>) {
         self.groups.clear();
         self.slot.clear();
         let hit = &self.nearest.get()[1][..self.len];
-        if primitives <= COUNTED {
+        if leaves <= COUNTED {
             // Neighbours mostly hit the same, so both passes go run by run.
             let mut places = [0usize; COUNTED + 1];
             for run in hit.chunk_by(|a, b| a.to_bits() == b.to_bits()) {
                 places[place(run[0])] += run.len();
             }
             let mut start = 0;
-            for (primitive, place) in places[1..=primitives].iter_mut().enumerate() {
+            for (leaf, place) in places[1..=leaves].iter_mut().enumerate() {
                 let len = std::mem::replace(place, start);
                 if len > 0 {
-                    self.groups.push(Group { primitive, start, len });
+                    self.groups.push(Group { leaf, start, len });
                     start = (start + len).next_multiple_of(MAX_LANES);
                 }
             }
@@ -169,7 +193,7 @@ impl Frame {
                 let start = self.slot.len();
                 self.slot.extend(run.iter().map(|&key| key as u32));
                 self.slot.resize(self.slot.len().next_multiple_of(MAX_LANES), u32::MAX);
-                self.groups.push(Group { primitive: (run[0] >> 32) as usize, start, len: run.len() });
+                self.groups.push(Group { leaf: (run[0] >> 32) as usize, start, len: run.len() });
             }
         }
         for group in &self.groups {
@@ -182,17 +206,29 @@ impl Frame {
         self.hit_normal.reserve(len);
         self.hit_direction.reserve(len);
         self.hit_color.reserve(len);
+        if uses.sides {
+            self.hit_side.reserve(len);
+        }
+        if uses.object {
+            self.hit_object.reserve(len);
+        }
+        if uses.uv {
+            self.hit_uv.reserve(len);
+        }
+        if uses.fields {
+            self.fields.reserve(len);
+        }
     }
 }
 
-/// What [`Frame::nearest`] holds for a ray that hits nothing. The first primitive is one more, and so on: the
+/// What [`Frame::nearest`] holds for a ray that hits nothing. The first leaf is one more, and so on: the
 /// low bits of the number count.
 pub(super) const NOTHING: f64 = (1u64 << 52) as f64;
 
-/// 0 for nothing, 1 for the first primitive, and so on.
+/// 0 for nothing, 1 for the first leaf, and so on.
 fn place(which: f64) -> usize {
     which.to_bits() as u32 as usize
 }
 
-/// Up to this many primitives hits are grouped by counting, beyond by sorting.
+/// Up to this many leaves hits are grouped by counting, beyond by sorting.
 const COUNTED: usize = 256;

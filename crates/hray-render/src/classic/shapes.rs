@@ -1,19 +1,53 @@
-//! Rays against shapes, several rays at a time: `intRayWith`, `fstPos` and `normal` of appendix A.1 and A.2.
+//! Rays against shapes, several rays at a time.
+//!
+//! The thesis' sphere and plane are `intRayWith`, `fstPos` and `normal` of appendix A.1 and A.2, with its
+//! constants. The exact ones have none: every hit in front of the ray counts, and where a ray that leaves a surface
+//! starts is kept clear of it by [`Surface::bound`].
 
+use super::placement::size;
 use fearless_simd::prelude::*;
-use hray_core::{DVec3, Shape};
+use hray_core::{DVec3, Integrator, Shape};
 use hray_expr::kernels::lanes::{Lanes, Mask, Vec3};
 
-/// A hit must be farther away than this (`fstPos`); it keeps a ray from hitting the spot it starts at.
-const NEAREST: f64 = 1e-6;
-/// A ray whose direction makes a smaller product with a plane's normal is parallel to it.
-const PARALLEL: f64 = 1e-9;
+/// The thesis' least distance of a hit (`fstPos`); it keeps a ray from hitting the spot it starts at.
+pub(super) const NEAREST: f64 = 1e-6;
+/// In the thesis a ray whose direction makes a smaller product with a plane's normal is parallel to it.
+pub(super) const PARALLEL: f64 = 1e-9;
+/// Bounds how far the result of some thirty roundings can be from the truth, relative to the numbers involved:
+/// gamma(32) of N. Higham, "Accuracy and Stability of Numerical Algorithms", § 3.1. The longest chain here is the
+/// sphere's: point minus centre, square, sum, minus the square of the radius.
+pub(super) const BOUND: f64 = 16.0 * f64::EPSILON;
 
 /// A shape with what can be computed once.
 #[derive(Clone, Copy)]
 pub(super) enum Prepared {
-    Sphere { center: DVec3, squared_radius: f64, inverse_radius: f64 },
-    Plane { normal: DVec3, offset: f64, unit_normal: DVec3 },
+    /// The thesis'.
+    Sphere {
+        center: DVec3,
+        squared_radius: f64,
+        inverse_radius: f64,
+    },
+    /// The thesis'.
+    Plane {
+        normal: DVec3,
+        offset: f64,
+        unit_normal: DVec3,
+    },
+    ExactSphere {
+        center: DVec3,
+        radius: f64,
+    },
+    /// `unit` is a unit vector, or zero where the plane has no normal.
+    ExactPlane {
+        unit: DVec3,
+        offset: f64,
+    },
+    /// A hit must be farther away than `nearest`.
+    Cuboid {
+        min: DVec3,
+        max: DVec3,
+        nearest: f64,
+    },
 }
 
 /// Rays, one per lane, with what every sphere needs of them.
@@ -33,27 +67,50 @@ impl<S: Simd> Rays<S> {
     }
 }
 
+/// Where rays meet a shape, in its own space.
+#[derive(Clone, Copy)]
+pub(super) struct Surface<S: Simd> {
+    /// The point, moved onto the surface.
+    pub(super) point: Vec3<S>,
+    /// The unit normal, outward.
+    pub(super) normal: Vec3<S>,
+    /// How far from the point along the normal one has to be so that no rounding can tell that one is on the other
+    /// side.
+    pub(super) bound: Lanes<S>,
+}
+
 impl Prepared {
-    pub(super) fn new(shape: &Shape) -> Self {
-        match *shape {
-            Shape::Sphere(sphere) => Self::Sphere {
+    /// A shape; none for a solid made of others.
+    pub(super) fn new(shape: &Shape, integrator: Integrator) -> Option<Self> {
+        let thesis = integrator == Integrator::Classic2005;
+        Some(match shape {
+            Shape::Sphere(sphere) if thesis => Self::Sphere {
                 center: sphere.center,
                 squared_radius: sphere.radius * sphere.radius,
                 inverse_radius: 1.0 / sphere.radius,
             },
+            Shape::Sphere(sphere) => Self::ExactSphere { center: sphere.center, radius: sphere.radius },
             Shape::Plane(plane) => {
                 let n = plane.normal;
                 let length = (n.x * n.x + n.y * n.y + n.z * n.z).sqrt();
-                let unit_normal = if length < PARALLEL { DVec3::ZERO } else { n * (1.0 / length) };
-                Self::Plane { normal: n, offset: plane.offset, unit_normal }
+                if thesis {
+                    let unit_normal = if length < PARALLEL { DVec3::ZERO } else { n * (1.0 / length) };
+                    Self::Plane { normal: n, offset: plane.offset, unit_normal }
+                } else if length > 0.0 {
+                    Self::ExactPlane { unit: n / length, offset: plane.offset / length }
+                } else {
+                    Self::ExactPlane { unit: DVec3::ZERO, offset: 0.0 }
+                }
             }
-            Shape::Cuboid(_) | Shape::Csg(_) => {
-                Self::Plane { normal: DVec3::ZERO, offset: 0.0, unit_normal: DVec3::ZERO }
+            Shape::Cuboid(cuboid) => {
+                let nearest = if thesis { NEAREST } else { 0.0 };
+                Self::Cuboid { min: cuboid.min, max: cuboid.max, nearest }
             }
-        }
+            Shape::Csg(_) => return None,
+        })
     }
 
-    /// The nearest distance beyond 1e-6 at which each ray meets the shape, and which rays do.
+    /// The nearest distance at which each ray meets the shape, and which rays do.
     ///
     /// Returns `None` where it is plain that no ray does.
     #[inline(always)]
@@ -99,18 +156,166 @@ impl Prepared {
                 let distance = -(height / slope);
                 Some((distance, distance.simd_gt(NEAREST) & !slope.abs().simd_lt(PARALLEL)))
             }
+            // Called, not inlined, so that the loop over the thesis' shapes stays small.
+            _ => simd.vectorize(
+                #[inline(always)]
+                || self.exact_hit(simd, rays),
+            ),
         }
     }
 
-    /// Normals at points of the surface.
     #[inline(always)]
-    pub(super) fn normal<S: Simd>(&self, simd: S, p: Vec3<S>) -> Vec3<S> {
+    fn exact_hit<S: Simd>(&self, simd: S, rays: &Rays<S>) -> Option<(Lanes<S>, Mask<S>)> {
+        match *self {
+            Self::ExactSphere { center, radius } => exact_sphere(simd, center, radius, rays),
+            Self::ExactPlane { unit, offset } => {
+                let unit = Vec3::splat(simd, unit);
+                let slope = unit.dot(rays.direction);
+                let height = unit.dot(rays.origin) + offset;
+                let distance = -(height / slope);
+                Some((distance, distance.simd_gt(0.0) & distance.simd_lt(f64::INFINITY)))
+            }
+            Self::Cuboid { min, max, nearest } => {
+                let [enter, exit] = slabs(simd, min, max, rays).through;
+                let outside = enter.simd_gt(nearest);
+                let distance = outside.select(enter, exit);
+                let met = enter.simd_le(exit) & distance.simd_gt(nearest);
+                Some((distance, met & distance.simd_lt(f64::INFINITY)))
+            }
+            Self::Sphere { .. } | Self::Plane { .. } => None,
+        }
+    }
+
+    /// The thesis' normals at points of the surface.
+    #[inline(always)]
+    pub(super) fn thesis_normal<S: Simd>(
+        &self,
+        simd: S,
+        p: Vec3<S>,
+        rays: &Rays<S>,
+        distance: Lanes<S>,
+    ) -> Vec3<S> {
         match *self {
             Self::Sphere { center, inverse_radius, .. } => {
                 let inverse_radius = Lanes::<S>::splat(simd, inverse_radius);
                 p.sub(Vec3::splat(simd, center)).scale(inverse_radius).norm(simd).0
             }
             Self::Plane { unit_normal, .. } => Vec3::splat(simd, unit_normal),
+            _ => self.surface(simd, rays, distance).normal,
         }
     }
+
+    /// Where the rays meet the surface at those distances.
+    #[inline(always)]
+    pub(super) fn surface<S: Simd>(&self, simd: S, rays: &Rays<S>, distance: Lanes<S>) -> Surface<S> {
+        let point = rays.origin.add(rays.direction.scale(distance));
+        let bound = |sum: Lanes<S>| sum * BOUND;
+        match *self {
+            Self::ExactSphere { center, radius } => {
+                let from_center = point.sub(Vec3::splat(simd, center));
+                let length = from_center.dot(from_center).sqrt();
+                let outward = from_center.scale(Lanes::<S>::splat(simd, 1.0) / length);
+                let point =
+                    outward.scale(Lanes::<S>::splat(simd, radius.abs())).add(Vec3::splat(simd, center));
+                let normal = outward.scale(Lanes::<S>::splat(simd, 1.0f64.copysign(radius)));
+                let sum = center.x.abs() + center.y.abs() + center.z.abs() + radius.abs();
+                Surface { point, normal, bound: bound(Lanes::<S>::splat(simd, sum)) }
+            }
+            Self::ExactPlane { unit, offset } => {
+                let normal = Vec3::splat(simd, unit);
+                let point = point.sub(normal.scale(normal.dot(point) + offset));
+                Surface { point, normal, bound: bound(size(normal).dot(size(point)) + offset.abs()) }
+            }
+            Self::Cuboid { min, max, .. } => cuboid_surface(simd, min, max, rays, distance, point),
+            // The thesis' have no use for it.
+            Self::Sphere { .. } | Self::Plane { .. } => {
+                Surface { point, normal: point, bound: Lanes::<S>::splat(simd, 0.0) }
+            }
+        }
+    }
+}
+
+/// Both roots without cancellation: the discriminant is taken from the distance of the centre to the ray, and the
+/// root that would be a difference of near numbers from the product of both. E. Haines, J. Günther, T. Akenine-
+/// Möller, "Precision Improvements for Ray/Sphere Intersection", Ray Tracing Gems, 2019, after D. Hearn and
+/// M. P. Baker.
+#[inline(always)]
+fn exact_sphere<S: Simd>(simd: S, center: DVec3, radius: f64, rays: &Rays<S>) -> Option<(Lanes<S>, Mask<S>)> {
+    let a = rays.double_a * 0.5;
+    let from_center = rays.origin.sub(Vec3::splat(simd, center));
+    let b = -from_center.dot(rays.direction);
+    let c = from_center.dot(from_center) - radius * radius;
+    let ahead = b.simd_ge(0.0) | c.simd_le(0.0);
+    let nearest = from_center.add(rays.direction.scale(b / a));
+    let discriminant = Lanes::<S>::splat(simd, radius * radius) - nearest.dot(nearest);
+    let met = discriminant.simd_ge(0.0) & ahead;
+    if met.all_false() {
+        return None;
+    }
+    let q = b + (discriminant * a).sqrt().copysign(b);
+    let (t0, t1) = (c / q, q / a);
+    let in_order = t0.simd_lt(t1);
+    let (near, far) = (in_order.select(t0, t1), in_order.select(t1, t0));
+    let distance = near.simd_gt(0.0).select(near, far);
+    Some((distance, met & distance.simd_gt(0.0) & distance.simd_lt(f64::INFINITY)))
+}
+
+/// Where rays cross the planes of a box's faces.
+struct Slabs<S: Simd> {
+    /// Of each axis, the distance to the face with the lower and with the higher coordinate.
+    faces: [[Lanes<S>; 2]; 3],
+    /// The distances at which the rays enter and leave what lies between all of them.
+    through: [Lanes<S>; 2],
+}
+
+/// A ray in the plane of a face divides zero by zero there, and counts as between the two faces.
+#[inline(always)]
+fn slabs<S: Simd>(simd: S, min: DVec3, max: DVec3, rays: &Rays<S>) -> Slabs<S> {
+    let Rays { origin: o, direction: d, .. } = rays;
+    let face = |bound: f64, o: Lanes<S>, d: Lanes<S>| (Lanes::<S>::splat(simd, bound) - o) / d;
+    let faces = [
+        [face(min.x, o.x, d.x), face(max.x, o.x, d.x)],
+        [face(min.y, o.y, d.y), face(max.y, o.y, d.y)],
+        [face(min.z, o.z, d.z), face(max.z, o.z, d.z)],
+    ];
+    let mut enter = Lanes::<S>::splat(simd, f64::NEG_INFINITY);
+    let mut exit = Lanes::<S>::splat(simd, f64::INFINITY);
+    for [low, high] in faces {
+        let in_order = low.simd_lt(high);
+        let (near, far) = (in_order.select(low, high), in_order.select(high, low));
+        let crosses = low.simd_eq(low) & high.simd_eq(high);
+        enter = (crosses & near.simd_gt(enter)).select(near, enter);
+        exit = (crosses & far.simd_lt(exit)).select(far, exit);
+    }
+    Slabs { faces, through: [enter, exit] }
+}
+
+#[inline(always)]
+fn cuboid_surface<S: Simd>(
+    simd: S,
+    min: DVec3,
+    max: DVec3,
+    rays: &Rays<S>,
+    distance: Lanes<S>,
+    point: Vec3<S>,
+) -> Surface<S> {
+    let faces = slabs(simd, min, max, rays).faces;
+    let zero = Lanes::<S>::splat(simd, 0.0);
+    let mut found = distance.simd_lt(f64::NEG_INFINITY);
+    let (mut on, mut out) = ([point.x, point.y, point.z], [zero; 3]);
+    let mut sum = zero;
+    for axis in 0..3 {
+        let largest = min[axis].abs().max(max[axis].abs());
+        for (side, coordinate, sign) in [(0, min[axis], -1.0), (1, max[axis], 1.0)] {
+            let this = faces[axis][side].simd_eq(distance) & !found;
+            on[axis] = this.select(Lanes::<S>::splat(simd, coordinate), on[axis]);
+            out[axis] = this.select(Lanes::<S>::splat(simd, sign), out[axis]);
+            sum = this.select(Lanes::<S>::splat(simd, largest), sum);
+            found |= this;
+        }
+    }
+    let [x, y, z] = on;
+    let point = Vec3 { x, y, z };
+    let [x, y, z] = out;
+    Surface { point, normal: Vec3 { x, y, z }, bound: sum * BOUND }
 }

@@ -1,39 +1,56 @@
-//! The steps of the classic integrator, each over a whole frame: written once for every vector width.
+//! The steps of the integrator but for light, each over a whole frame: written once for every vector width.
 
 use super::Integrator;
 use super::frame::{Background, Frame, Group, NOTHING};
-use super::material::Material;
-use super::shapes::{Prepared, Rays};
-use super::texture::color_at;
+use super::geometry::Geometry;
+use super::material::{BUMP, FIELDS, Material, Number};
+use super::placement::size;
+use super::shapes::{BOUND, Rays};
+use super::solid::Walk;
+use super::trace::nearest;
+use super::uv::uv;
 use crate::Control;
 use fearless_simd::prelude::*;
-use hray_core::{DVec3, Light};
-use hray_expr::kernels::lanes::{Lanes, Mask, Vec3, consecutive, gather};
-use hray_expr::kernels::power::power;
-
-/// A highlight of coefficient 0 vanishes whatever its power, as long as that is finite; up to this exponent
-/// it is, because the cosine exceeds 1 by rounding only.
-const FINITE_POWER: f64 = (1u64 << 40) as f64;
+use hray_core::DVec3;
+use hray_expr::kernels::lanes::{Lanes, Vec3, consecutive, gather};
 
 /// The places at which vectors start in `len` entries from `start`.
 #[inline(always)]
-fn places<S: Simd>(start: usize, len: usize) -> impl Iterator<Item = usize> {
+pub(super) fn places<S: Simd>(start: usize, len: usize) -> impl Iterator<Item = usize> {
     (start..start + len).step_by(Lanes::<S>::LEN)
+}
+
+/// The direction of a vector of any length but zero and those whose squares are out of range.
+#[inline(always)]
+pub(super) fn unit<S: Simd>(simd: S, v: Vec3<S>) -> Vec3<S> {
+    v.scale(Lanes::<S>::splat(simd, 1.0) / v.dot(v).sqrt())
+}
+
+#[inline(always)]
+fn negated<S: Simd>(v: Vec3<S>) -> Vec3<S> {
+    Vec3 { x: -v.x, y: -v.y, z: -v.z }
 }
 
 /// Directions of rays that lead away from the eye: `mkNormVect eye p`.
 #[inline(always)]
-pub(super) fn away_from_eye<S: Simd>(simd: S, eye: DVec3, frame: &mut Frame) {
+pub(super) fn away_from_eye<S: Simd>(simd: S, eye: DVec3, exact: bool, frame: &mut Frame) {
     for i in places::<S>(0, frame.len) {
         let p = Vec3::load(simd, frame.origin.get(), i);
-        let (direction, _) = p.sub(Vec3::splat(simd, eye)).norm(simd);
+        let away = p.sub(Vec3::splat(simd, eye));
+        let direction = if exact { unit(simd, away) } else { away.norm(simd).0 };
         direction.store(frame.direction.get_mut(), i);
     }
 }
 
-/// The nearest hit of each ray: `intersect`. A later primitive must be strictly nearer.
+/// The nearest hit of each ray.
 #[inline(always)]
-pub(super) fn intersect<S: Simd>(simd: S, shapes: &[Prepared], frame: &mut Frame, control: &Control) {
+pub(super) fn intersect<S: Simd>(
+    simd: S,
+    geometry: &Geometry,
+    frame: &mut Frame,
+    walk: &mut Walk,
+    control: &Control,
+) {
     frame.nearest.reserve(frame.len);
     for i in places::<S>(0, frame.len) {
         if control.is_cancelled() {
@@ -42,141 +59,191 @@ pub(super) fn intersect<S: Simd>(simd: S, shapes: &[Prepared], frame: &mut Frame
         }
         let origin = Vec3::load(simd, frame.origin.get(), i);
         let direction = Vec3::load(simd, frame.direction.get(), i);
-        let rays = Rays::new(origin, direction);
-        // Before the first hit the distance is not a number, and nothing is farther than that.
-        let mut nearest = Lanes::<S>::splat(simd, f64::NAN);
-        let mut primitive = Lanes::<S>::splat(simd, NOTHING);
-        let mut which = NOTHING;
-        for shape in shapes {
-            which += 1.0;
-            if let Some((distance, hit)) = shape.hit(simd, &rays) {
-                let nearer = hit & !distance.simd_ge(nearest);
-                nearest = nearer.select(distance, nearest);
-                primitive = nearer.select(Lanes::<S>::splat(simd, which), primitive);
-            }
-        }
-        let [distances, primitives] = frame.nearest.get_mut();
-        nearest.store_slice(&mut distances[i..i + Lanes::<S>::LEN]);
-        primitive.store_slice(&mut primitives[i..i + Lanes::<S>::LEN]);
+        let found = nearest(simd, geometry, &Rays::new(origin, direction), NOTHING, walk);
+        let [distances, leaves] = frame.nearest.get_mut();
+        found.distance.store_slice(&mut distances[i..i + Lanes::<S>::LEN]);
+        found.leaf.store_slice(&mut leaves[i..i + Lanes::<S>::LEN]);
     }
 }
 
-/// The direct light at every hit: `shadePt` summed over the lights. Returns how many shadow rays it took.
+/// Where hits are, and the geometric normals there: outward, of the whole where a shape is part of a solid.
 #[inline(always)]
-pub(super) fn shade<S: Simd>(simd: S, scene: &Integrator, frame: &mut Frame, control: &Control) -> u64 {
-    let mut hits = 0;
-    for group in &frame.groups {
-        hits += group.len as u64;
+pub(super) fn locate<S: Simd>(simd: S, scene: &Integrator, frame: &mut Frame) {
+    for at in 0..frame.groups.len() {
+        let group = frame.groups[at];
+        let geometry = &scene.geometry;
+        let shape = geometry.shape(group.leaf);
+        let special = scene.exact
+            || geometry.placement(group.leaf).is_some()
+            || geometry.is_turned(group.leaf)
+            || scene.uses.object
+            || scene.uses.uv;
         for i in places::<S>(group.start, group.len) {
-            let rays = &frame.slot[i..i + Lanes::<S>::LEN];
-            let origin = Vec3::gather(simd, frame.origin.get(), rays);
-            let direction = Vec3::gather(simd, frame.direction.get(), rays);
-            let distances = frame.nearest.get()[0];
-            let distance = gather(simd, distances, rays);
+            let slots = &frame.slot[i..i + Lanes::<S>::LEN];
+            let origin = Vec3::gather(simd, frame.origin.get(), slots);
+            let direction = Vec3::gather(simd, frame.direction.get(), slots);
+            let distance = gather(simd, frame.nearest.get()[0], slots);
+            direction.store(frame.hit_direction.get_mut(), i);
+            let rays = Rays::new(origin, direction);
+            if special {
+                simd.vectorize(
+                    #[inline(always)]
+                    || locate_special(simd, scene, frame, group, i, &rays, distance),
+                );
+                continue;
+            }
             let point = origin.add(direction.scale(distance));
-            let normal = scene.shapes[group.primitive].normal(simd, point);
+            let normal = shape.thesis_normal(simd, point, &rays, distance);
             point.store(frame.hit_point.get_mut(), i);
             normal.store(frame.hit_normal.get_mut(), i);
-            direction.store(frame.hit_direction.get_mut(), i);
-            let color = light(simd, scene, group.primitive, [point, normal, direction], control);
-            color.store(frame.hit_color.get_mut(), i);
         }
     }
-    let point_lights = scene.lights.iter().filter(|light| matches!(light, Light::Point { .. })).count();
-    hits * point_lights as u64
 }
 
-/// The light that reaches points of a primitive and leaves them against `direction`. A render that is stopped
-/// gets the light of the lamps so far.
+/// The hits from `i` of a leaf that has a placement, is turned inside out, or is to be known exactly.
 #[inline(always)]
-fn light<S: Simd>(
+fn locate_special<S: Simd>(
     simd: S,
     scene: &Integrator,
-    primitive: usize,
-    [point, normal, direction]: [Vec3<S>; 3],
-    control: &Control,
-) -> Vec3<S> {
-    let material = &scene.materials[primitive];
-    let mut sum = Vec3::splat(simd, DVec3::ZERO);
-    let mut color = None;
-    for source in &scene.lights {
-        if control.is_cancelled() {
-            break;
-        }
-        match *source {
-            Light::Ambient { intensity } => sum = sum.add(Vec3::splat(simd, intensity)),
-            Light::Directional { .. } | Light::Spot { .. } => {}
-            Light::Point { position, intensity } => {
-                let (to_light, distance) = Vec3::splat(simd, position).sub(point).norm(simd);
-                let dark = shadowed(simd, &scene.shapes, &Rays::new(point, to_light), distance);
-                if dark.all_true() {
-                    continue;
-                }
-                let color = match color {
-                    Some(color) => color,
-                    None => *color.insert(color_at(simd, &scene.noise, &material.texture, point)),
-                };
-                let intensity = Vec3::splat(simd, intensity);
-                let diffuse = intensity.scale(to_light.dot(normal)).mul(color);
-                let lit = match highlight(simd, material, normal, direction, to_light) {
-                    Some(factor) => diffuse.add(intensity.scale(factor)),
-                    None => diffuse,
-                };
-                sum = sum.add(lit.zero_where(simd, dark));
-            }
+    frame: &mut Frame,
+    group: Group,
+    i: usize,
+    rays: &Rays<S>,
+    distance: Lanes<S>,
+) {
+    let geometry = &scene.geometry;
+    let (shape, placement) = (geometry.shape(group.leaf), geometry.placement(group.leaf));
+    let own = placement.map_or(*rays, |placement| placement.rays(simd, rays));
+    let (object, own_normal, bound) = if scene.exact {
+        let surface = shape.surface(simd, &own, distance);
+        (surface.point, surface.normal, surface.bound)
+    } else {
+        let object = own.origin.add(own.direction.scale(distance));
+        (object, shape.thesis_normal(simd, object, &own, distance), distance)
+    };
+    let (mut point, mut normal, mut bound) = (object, own_normal, bound);
+    if let Some(placement) = placement {
+        normal = placement.normal_to_world::<S>(own_normal);
+        if scene.exact {
+            point = placement.to_world(simd, object);
+            let length = normal.dot(normal).sqrt();
+            bound = (bound + placement.round_trip(simd, object, point, own_normal)) / length;
+            normal = normal.scale(Lanes::<S>::splat(simd, 1.0) / length);
+        } else {
+            point = rays.origin.add(rays.direction.scale(distance));
+            normal = normal.norm(simd).0;
         }
     }
-    sum
-}
-
-/// Which points do not see a light at `distance`: any hit that is not farther blocks it.
-#[inline(always)]
-fn shadowed<S: Simd>(simd: S, shapes: &[Prepared], rays: &Rays<S>, distance: Lanes<S>) -> Mask<S> {
-    let mut dark = Mask::<S>::splat(simd, false);
-    for shape in shapes {
-        if let Some((at, hit)) = shape.hit(simd, rays) {
-            dark |= hit & at.simd_le(distance);
-            if dark.all_true() {
-                break;
-            }
+    if geometry.is_turned(group.leaf) {
+        normal = negated(normal);
+    }
+    point.store(frame.hit_point.get_mut(), i);
+    normal.store(frame.hit_normal.get_mut(), i);
+    if scene.exact {
+        // Adding it to the point rounds once more.
+        let distance = bound + size(normal).dot(size(point)) * BOUND;
+        distance.store_slice(&mut frame.hit_side.get_mut()[3][i..i + Lanes::<S>::LEN]);
+    }
+    if scene.uses.object {
+        object.store(frame.hit_object.get_mut(), i);
+    }
+    if scene.uses.uv && scene.takes_uv(group.leaf) {
+        let [us, vs] = frame.hit_uv.get_mut();
+        for lane in 0..Lanes::<S>::LEN {
+            let of = |v: Vec3<S>| DVec3::new(v.x[lane], v.y[lane], v.z[lane]);
+            [us[i + lane], vs[i + lane]] = uv(shape, of(object), of(own_normal));
         }
     }
-    dark
 }
 
-/// The factor of the highlight (`spec` without the intensity), unless it is certain to vanish.
+/// The normals to shade with, from the gradient of the height above the surface in object space.
 #[inline(always)]
-fn highlight<S: Simd>(
+pub(super) fn tilted<S: Simd>(
     simd: S,
-    material: &Material,
+    geometry: &Geometry,
+    fields: &[&[f64]; FIELDS],
+    leaf: usize,
+    i: usize,
     normal: Vec3<S>,
-    direction: Vec3<S>,
-    to_light: Vec3<S>,
-) -> Option<Lanes<S>> {
-    if material.reflection == 0.0 && (0.0..=FINITE_POWER).contains(&material.shine) {
-        return None;
-    }
-    let (half, _) = to_light.sub(direction).norm(simd);
-    Some(power(simd, normal.dot(half), material.shine) * material.reflection)
+) -> Vec3<S> {
+    let gradient = Vec3::load(simd, [fields[BUMP], fields[BUMP + 1], fields[BUMP + 2]], i);
+    let gradient =
+        geometry.placement(leaf).map_or(gradient, |placement| placement.normal_to_world::<S>(gradient));
+    // Heights are above the shape, also where that is turned inside out.
+    let gradient = if geometry.is_turned(leaf) { negated(gradient) } else { gradient };
+    let along = gradient.sub(normal.scale(gradient.dot(normal)));
+    unit(simd, normal.sub(along))
 }
 
 /// The mirrored rays of a frame: `reflectPt`.
 #[inline(always)]
-pub(super) fn reflect<S: Simd>(simd: S, materials: &[Material], frame: &Frame, next: &mut Frame) {
-    next.begin(Background::Black, frame.len);
-    for group in frame.groups.iter().filter(|group| materials[group.primitive].reflection != 0.0) {
+pub(super) fn reflect<S: Simd>(simd: S, scene: &Integrator, frame: &Frame, next: &mut Frame) {
+    next.begin(if scene.exact { Background::Scene } else { Background::Black }, frame.len);
+    for group in &frame.groups {
+        let material = scene.material(group.leaf);
+        if material.reflection.vanishes() {
+            continue;
+        }
+        let all = matches!(material.reflection, Number::Constant(_));
         for i in places::<S>(group.start, group.len) {
             let normal = Vec3::load(simd, frame.hit_normal.get(), i);
             let direction = Vec3::load(simd, frame.hit_direction.get(), i);
             let mirrored = direction.sub(normal.scale(normal.dot(direction) * 2.0));
-            let to = next.len + (i - group.start);
-            Vec3::load(simd, frame.hit_point.get(), i).store(next.origin.get_mut(), to);
-            mirrored.store(next.direction.get_mut(), to);
+            let mut point = Vec3::load(simd, frame.hit_point.get(), i);
+            let mirrored = if scene.exact {
+                let [x, y, z, clear, _] = frame.hit_side.get();
+                let side = Vec3::load(simd, [x, y, z], i);
+                let clear = Lanes::<S>::from_slice(simd, &clear[i..i + Lanes::<S>::LEN]);
+                point = point.add(side.scale(clear));
+                outward(simd, material, direction, mirrored, side)
+            } else {
+                mirrored
+            };
+            if all {
+                let to = next.len + (i - group.start);
+                point.store(next.origin.get_mut(), to);
+                mirrored.store(next.direction.get_mut(), to);
+                continue;
+            }
+            for lane in 0..Lanes::<S>::LEN.min(group.start + group.len - i) {
+                if material.reflection.of(&frame.fields.get(), i + lane) != 0.0 {
+                    push(next, lane_of(point, lane), lane_of(mirrored, lane), i + lane);
+                }
+            }
         }
-        extend_parents(next, group);
+        if all {
+            extend_parents(next, group);
+        }
     }
     next.origin.pad(next.len);
     next.direction.pad(next.len);
+}
+
+/// Mirrored directions; where bumps would mirror into the surface, those of the surface without bumps.
+#[inline(always)]
+fn outward<S: Simd>(
+    simd: S,
+    material: &Material,
+    direction: Vec3<S>,
+    mirrored: Vec3<S>,
+    side: Vec3<S>,
+) -> Vec3<S> {
+    if !material.has_bumps {
+        return unit(simd, mirrored);
+    }
+    let plain = direction.sub(side.scale(side.dot(direction) * 2.0));
+    let out = mirrored.dot(side).simd_gt(0.0);
+    let mirrored = Vec3 {
+        x: out.select(mirrored.x, plain.x),
+        y: out.select(mirrored.y, plain.y),
+        z: out.select(mirrored.z, plain.z),
+    };
+    unit(simd, mirrored)
+}
+
+#[inline(always)]
+fn lane_of<S: Simd>(v: Vec3<S>, lane: usize) -> [f64; 3] {
+    [v.x[lane], v.y[lane], v.z[lane]]
 }
 
 fn extend_parents(next: &mut Frame, group: &Group) {
@@ -184,24 +251,48 @@ fn extend_parents(next: &mut Frame, group: &Group) {
     next.len += group.len;
 }
 
-/// The refracted rays of a frame: `refractPt`. Where all light is reflected inside there is none.
+/// Appends one ray that is owed to a hit.
+fn push(next: &mut Frame, from: [f64; 3], toward: [f64; 3], hit: usize) {
+    let to = next.len;
+    next.origin.get_mut().into_iter().zip(from).for_each(|(column, v)| column[to] = v);
+    next.direction.get_mut().into_iter().zip(toward).for_each(|(column, v)| column[to] = v);
+    next.parent.push(hit as u32);
+    next.len += 1;
+}
+
+/// The refracted rays of a frame: `refractPt`. Where all light is reflected inside there is none by the thesis'
+/// rules, and by the exact ones the mirrored ray.
 #[inline(always)]
 pub(super) fn refract<S: Simd>(simd: S, scene: &Integrator, frame: &Frame, next: &mut Frame) {
-    next.begin(Background::PerRay, frame.len);
+    next.begin(if scene.exact { Background::Scene } else { Background::PerRay }, frame.len);
     for group in &frame.groups {
-        let material = &scene.materials[group.primitive];
-        if material.transmission == 0.0 {
+        let material = scene.material(group.leaf);
+        if material.transmission.vanishes() {
             continue;
         }
         for i in places::<S>(group.start, group.len) {
+            let fields = frame.fields.get();
             let normal = Vec3::load(simd, frame.hit_normal.get(), i);
             let direction = Vec3::load(simd, frame.hit_direction.get(), i);
-            let refracted = refracted(simd, direction, normal, material.refractive_index);
+            let index = material.refractive_index.load(simd, &fields, i);
             let lanes = Lanes::<S>::LEN.min(group.start + group.len - i);
+            if scene.exact {
+                let (from, toward) = exactly_refracted(simd, frame, material, i, [direction, normal], index);
+                for lane in 0..lanes {
+                    if material.transmission.of(&fields, i + lane) != 0.0 {
+                        push(next, lane_of(from, lane), lane_of(toward, lane), i + lane);
+                    }
+                }
+                continue;
+            }
+            let point = Vec3::load(simd, frame.hit_point.get(), i);
+            let refracted = refracted(simd, direction, normal, index);
             for lane in 0..lanes {
-                let toward = [refracted.x[lane], refracted.y[lane], refracted.z[lane]];
-                if toward != [0.0; 3] {
-                    push_refracted(scene, material, frame, next, i + lane, toward);
+                let toward = lane_of(refracted, lane);
+                let share = material.transmission.of(&fields, i + lane);
+                if toward != [0.0; 3] && share != 0.0 {
+                    push_behind(scene, share, frame, next, i + lane);
+                    push(next, lane_of(point, lane), toward, i + lane);
                 }
             }
         }
@@ -210,44 +301,72 @@ pub(super) fn refract<S: Simd>(simd: S, scene: &Integrator, frame: &Frame, next:
     next.direction.pad(next.len);
 }
 
-/// Appends the refracted ray of one hit, with the background that it will see.
-fn push_refracted(
-    scene: &Integrator,
-    material: &Material,
-    frame: &Frame,
-    next: &mut Frame,
-    hit: usize,
-    toward: [f64; 3],
-) {
+/// Notes the background that the next ray will see: by the thesis' rules that of the ray that is refracted, times
+/// the transparency.
+fn push_behind(scene: &Integrator, share: f64, frame: &Frame, next: &mut Frame, hit: usize) {
     let ray = frame.slot[hit] as usize;
     let behind = match frame.background {
-        Background::Scene => scene.background.to_array(),
+        Background::Scene => scene.uniform_background(),
         Background::Black => [0.0; 3],
         Background::PerRay => frame.behind.get().map(|column| column[ray]),
     };
     let to = next.len;
-    let columns = next.origin.get_mut().into_iter().zip(frame.hit_point.get());
-    columns.for_each(|(column, from)| column[to] = from[hit]);
-    next.direction.get_mut().into_iter().zip(toward).for_each(|(column, v)| column[to] = v);
-    next.behind
-        .get_mut()
-        .into_iter()
-        .zip(behind)
-        .for_each(|(column, v)| column[to] = v * material.transmission);
-    next.parent.push(hit as u32);
-    next.len += 1;
+    next.behind.get_mut().into_iter().zip(behind).for_each(|(column, v)| column[to] = v * share);
 }
 
 /// `refractDir` of appendix A.1: the direction zero where all light is reflected inside.
 #[inline(always)]
-fn refracted<S: Simd>(simd: S, incoming: Vec3<S>, normal: Vec3<S>, index: f64) -> Vec3<S> {
-    let cosine = normal.dot(Vec3 { x: -incoming.x, y: -incoming.y, z: -incoming.z });
+fn refracted<S: Simd>(simd: S, incoming: Vec3<S>, normal: Vec3<S>, index: Lanes<S>) -> Vec3<S> {
+    let cosine = normal.dot(negated(incoming));
     let leaving = cosine.simd_lt(0.0);
-    let ratio = leaving.select(Lanes::<S>::splat(simd, index), Lanes::<S>::splat(simd, 1.0 / index));
+    let ratio = leaving.select(index, Lanes::<S>::splat(simd, 1.0) / index);
     let v = ratio * ratio * (cosine * cosine - 1.0) + 1.0;
     let bend = ratio * cosine.abs() - v.sqrt();
     let (direction, _) = incoming.scale(ratio).add(normal.scale(bend)).norm(simd);
     direction.zero_where(simd, v.simd_lt(0.0))
+}
+
+/// Where refracted rays start, and their directions by Snell's law, on the way in and out alike.
+#[inline(always)]
+fn exactly_refracted<S: Simd>(
+    simd: S,
+    frame: &Frame,
+    material: &Material,
+    i: usize,
+    [incoming, normal]: [Vec3<S>; 2],
+    index: Lanes<S>,
+) -> (Vec3<S>, Vec3<S>) {
+    let [x, y, z, clear, outside] = frame.hit_side.get();
+    let side = Vec3::load(simd, [x, y, z], i);
+    let load = |column: &[f64]| Lanes::<S>::from_slice(simd, &column[i..i + Lanes::<S>::LEN]);
+    let (clear, outside) = (load(clear), load(outside));
+    let one = Lanes::<S>::splat(simd, 1.0);
+    // Bumps may turn a normal away from the viewer; there light is refracted as without them.
+    let cosine = -normal.dot(incoming);
+    let turned = cosine.simd_le(0.0);
+    let normal = Vec3 {
+        x: turned.select(side.x, normal.x),
+        y: turned.select(side.y, normal.y),
+        z: turned.select(side.z, normal.z),
+    };
+    let cosine = -normal.dot(incoming);
+    let ratio = outside.simd_gt(0.0).select(one / index, index);
+    let squared_sine = ratio * ratio * (one - cosine * cosine);
+    let through = squared_sine.simd_le(1.0);
+    let bend = ratio * cosine - (one - squared_sine).sqrt();
+    let bent = incoming.scale(ratio).add(normal.scale(bend));
+    let mirrored = incoming.add(normal.scale(cosine * 2.0));
+    let mirrored = outward(simd, material, incoming, mirrored, side);
+    let bent = unit(simd, bent);
+    let toward = Vec3 {
+        x: through.select(bent.x, mirrored.x),
+        y: through.select(bent.y, mirrored.y),
+        z: through.select(bent.z, mirrored.z),
+    };
+    // To the far side, or back to the near one.
+    let clear = through.select(-clear, clear);
+    let point = Vec3::load(simd, frame.hit_point.get(), i);
+    (point.add(side.scale(clear)), toward)
 }
 
 /// Clips the colours of the hits and gives them to their rays.

@@ -11,6 +11,7 @@ use hray_expr::kernels::sine::sine;
 pub(super) fn color_at<S: Simd>(simd: S, noise: &Noise, texture: &Texture, p: Vec3<S>) -> Vec3<S> {
     match *texture {
         Texture::Solid(color) => Vec3::splat(simd, color),
+        // Evaluated elsewhere.
         Texture::Function(_) => Vec3::splat(simd, DVec3::ZERO),
         Texture::Noise(NoiseTexture::Plasma { grid }) => Vec3 {
             x: half::<S>(noise.octaves(simd, 0, p, grid, 0, Sum::Signed)),

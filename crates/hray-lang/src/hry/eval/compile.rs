@@ -63,6 +63,8 @@ pub(super) struct Compiler<'a> {
     scopes: Vec<Scope>,
 }
 
+/// A function as it is written: its name, where it has one, its parameters and its body.
+type Written<'d> = (Option<Arc<str>>, &'d [ast::Pattern], &'d Expr);
 type Result<T> = std::result::Result<T, Box<Diagnostic>>;
 
 impl<'a> Compiler<'a> {
@@ -352,7 +354,7 @@ impl<'a> Compiler<'a> {
     }
 
     /// Functions that may call each other, by their names.
-    fn group(&mut self, functions: &[(Option<Arc<str>>, &[ast::Pattern], &Expr)]) -> Result<Lambda> {
+    fn group(&mut self, functions: &[Written<'_>]) -> Result<Lambda> {
         let siblings: Vec<Arc<str>> =
             functions.iter().map(|(name, ..)| name.clone().unwrap_or_else(|| "".into())).collect();
         let mut compiled = Vec::new();

@@ -130,8 +130,8 @@ impl<'a> Machine<'a> {
             }
         }
         let numbers = numbers.get(..kind.len()).unwrap_or_default();
-        let shown = self.show(value, 60);
         let complain = |wanted: String| {
+            let shown = self.show(value, 60);
             Diagnostic::error(
                 "out-of-range",
                 format!(
@@ -172,6 +172,8 @@ impl<'a> Machine<'a> {
         let odd = match field.range {
             Range::Share => numbers.iter().any(|n| !(0.0..=1.0).contains(n)).then_some("from 0 to 1"),
             Range::Light => numbers.iter().any(|n| *n < 0.0).then_some("0 or greater"),
+            Range::Radius => numbers.iter().any(|n| *n <= 0.0).then_some("greater than 0"),
+            Range::Normal => numbers.iter().all(|n| *n == 0.0).then_some("not zero"),
             _ => None,
         };
         if let Some(wanted) = odd {

@@ -1,15 +1,12 @@
 //! The evaluator: code and values to values.
 
-use super::code::{
-    Binding, Capture, Code, CodeKind, FieldName, FunctionCode, Lambda, Pattern, QualifierCode, RangeCode,
-};
+use super::code::{Binding, Capture, Code, CodeKind, FieldName, FunctionCode, Lambda};
 use super::compile::{Compiler, Symbols, internal};
 use super::failure::{Failure, Outcome};
 use super::limits::{Limits, Meter};
 use super::scalar::{assemble, parts, truth};
 use super::value::{
-    Closure, ClosureGroup, FunctionKind, FunctionValue, HitValue, Kind, ListValue, RecordValue, Scalar,
-    Symbol, TextValue, Value,
+    Closure, ClosureGroup, FunctionKind, HitValue, Kind, RecordValue, Scalar, Symbol, TextValue, Value,
 };
 use crate::diagnostic::{Diagnostic, Span};
 use crate::hry::assets::Assets;
@@ -43,12 +40,12 @@ pub(super) struct Machine<'a> {
     globals: Vec<Vec<GlobalState>>,
     /// The definitions that are being worked out, each needed by the one before.
     running: Vec<(usize, usize)>,
-    stack: Vec<Value>,
+    pub(super) stack: Vec<Value>,
     pub(super) steps: u64,
     depth: u32,
     /// The graph that is being built while a function of a hit is evaluated.
     pub(super) graph: Option<Builder>,
-    branches: u32,
+    pub(super) branches: u32,
     pub(super) images: BTreeMap<String, Arc<Image>>,
     /// Values of the defaults of constructors' fields.
     pub(super) defaults: BTreeMap<(&'static str, usize), Value>,
@@ -59,23 +56,15 @@ pub(super) struct Machine<'a> {
 
 /// A running function.
 #[derive(Clone, Copy)]
-struct Frame<'f> {
-    base: usize,
-    group: Option<&'f Arc<ClosureGroup>>,
+pub(super) struct Frame<'f> {
+    pub(super) base: usize,
+    pub(super) group: Option<&'f Arc<ClosureGroup>>,
 }
 
 /// A text that is part of the program, so that it need not be counted.
 pub(super) fn constant_text(text: &str) -> Value {
     let charge = Meter::default().charge(0);
     Value::Text(Arc::new(TextValue { text: text.to_owned(), _charge: charge }))
-}
-
-/// What a pattern says of a value.
-enum Matched {
-    Yes,
-    No,
-    /// It depends on the hit.
-    Depends(Scalar),
 }
 
 impl<'a> Machine<'a> {
@@ -202,7 +191,7 @@ impl<'a> Machine<'a> {
     }
 
     /// Makes room for the locals of a function whose arguments lie from `base` on.
-    fn enter(&mut self, code: &FunctionCode, base: usize, span: Span) -> Outcome<()> {
+    pub(super) fn enter(&mut self, code: &FunctionCode, base: usize, span: Span) -> Outcome<()> {
         self.step(span)?;
         if self.depth >= self.limits.depth {
             return Err(self.too_deep(code, span));
@@ -212,7 +201,7 @@ impl<'a> Machine<'a> {
         Ok(())
     }
 
-    fn leave(&mut self, base: usize) {
+    pub(super) fn leave(&mut self, base: usize) {
         self.depth -= 1;
         self.stack.truncate(base);
     }
@@ -231,33 +220,33 @@ impl<'a> Machine<'a> {
     }
 
     /// Runs with enough stack.
-    fn guarded<T>(&mut self, run: impl FnOnce(&mut Self) -> T) -> T {
+    pub(super) fn guarded<T>(&mut self, run: impl FnOnce(&mut Self) -> T) -> T {
         stacker::maybe_grow(RED_ZONE, MORE_STACK, || run(self))
     }
 
-    fn local(&self, frame: Frame<'_>, local: usize, span: Span) -> Outcome<Value> {
+    pub(super) fn local(&self, frame: Frame<'_>, local: usize, span: Span) -> Outcome<Value> {
         let value = self.stack.get(frame.base + local).cloned();
         value.ok_or_else(|| internal(span, "a local that is not there").into())
     }
 
-    fn set_local(&mut self, frame: Frame<'_>, local: usize, value: Value) {
+    pub(super) fn set_local(&mut self, frame: Frame<'_>, local: usize, value: Value) {
         if let Some(slot) = self.stack.get_mut(frame.base + local) {
             *slot = value;
         }
     }
 
-    fn captured(frame: Frame<'_>, index: usize, span: Span) -> Outcome<Value> {
+    pub(super) fn captured(frame: Frame<'_>, index: usize, span: Span) -> Outcome<Value> {
         let value = frame.group.and_then(|group| group.captured.get(index)).cloned();
         value.ok_or_else(|| internal(span, "a captured value that is not there").into())
     }
 
-    fn sibling(&self, frame: Frame<'_>, index: usize, span: Span) -> Outcome<Value> {
+    pub(super) fn sibling(&self, frame: Frame<'_>, index: usize, span: Span) -> Outcome<Value> {
         let group = frame.group.ok_or_else(|| internal(span, "a function that is not there"))?;
         let nesting = group.captured.iter().map(Value::nesting).max().unwrap_or(0) + 1;
         self.function(FunctionKind::Closure(Closure { group: group.clone(), index }), nesting, span)
     }
 
-    fn eval(&mut self, code: &Code, frame: Frame<'_>) -> Outcome<Value> {
+    pub(super) fn eval(&mut self, code: &Code, frame: Frame<'_>) -> Outcome<Value> {
         let span = code.span;
         match &code.kind {
             CodeKind::Constant(value) => Ok(value.clone()),
@@ -389,7 +378,7 @@ impl<'a> Machine<'a> {
     }
 
     /// The value of an expression that is a number or a truth value.
-    fn number(&mut self, code: &Code, frame: Frame<'_>) -> Outcome<Scalar> {
+    pub(super) fn number(&mut self, code: &Code, frame: Frame<'_>) -> Outcome<Scalar> {
         match self.eval(code, frame)? {
             Value::Number(n) => Ok(Scalar::Known(n)),
             Value::Bool(b) => Ok(truth(b)),
@@ -401,7 +390,7 @@ impl<'a> Machine<'a> {
     }
 
     /// Enters a branch that depends on the hit.
-    fn branch(&mut self, span: Span) -> Outcome<()> {
+    pub(super) fn branch(&mut self, span: Span) -> Outcome<()> {
         self.branches += 1;
         if self.branches <= MOST_BRANCHES {
             return Ok(());
@@ -418,170 +407,7 @@ impl<'a> Machine<'a> {
         ))
     }
 
-    /// A list, where it is not too long.
-    pub(super) fn list(&mut self, items: Vec<Value>, span: Span) -> Outcome<Value> {
-        self.check_length(items.len(), span)?;
-        let bytes = (items.capacity() * size_of::<Value>()) as u64
-            + items.iter().map(Value::owned_bytes).sum::<u64>();
-        let nesting = items.iter().map(Value::nesting).max().unwrap_or(0);
-        let charge = self.meter.charge(bytes);
-        self.check_memory(span)?;
-        Ok(Value::List(Arc::new(ListValue { items, nesting, _charge: charge })))
-    }
-
-    pub(super) fn check_length(&self, length: usize, span: Span) -> Outcome<()> {
-        if length <= self.limits.list {
-            return Ok(());
-        }
-        let message = format!(
-            "the list at {} grew past {} elements",
-            self.place(span),
-            grouped(self.limits.list as u64)
-        );
-        Err(Failure::new(
-            Diagnostic::error("list-too-long", message, span, "this list")
-                .with_help("make fewer elements; or raise the budget with `--eval-list`"),
-        ))
-    }
-
-    fn check_memory(&self, span: Span) -> Outcome<()> {
-        if self.meter.used() <= self.limits.memory {
-            return Ok(());
-        }
-        let message =
-            format!("the values of the scene take more than {} MiB", grouped(self.limits.memory >> 20));
-        Err(Failure::new(
-            Diagnostic::error(
-                "too-much-memory",
-                message,
-                span,
-                "this is what was made when the budget ran out",
-            )
-            .with_help("make less at a time; or raise the budget with `--eval-memory`"),
-        ))
-    }
-
-    /// A text, where it is not too long.
-    pub(super) fn text(&mut self, text: String, span: Span) -> Outcome<Value> {
-        let charge = self.meter.charge(text.capacity() as u64);
-        self.check_memory(span)?;
-        Ok(Value::Text(Arc::new(TextValue { text, _charge: charge })))
-    }
-
-    fn range(&mut self, range: &RangeCode, frame: Frame<'_>, span: Span) -> Outcome<Value> {
-        let mut bound = |code: &Code| -> Outcome<f64> {
-            match self.number(code, frame)? {
-                Scalar::Known(value) if value.is_finite() => Ok(value),
-                Scalar::Known(value) => {
-                    let message = format!("a range cannot have the bound {value}");
-                    Err(Failure::new(Diagnostic::error(
-                        "range-bound",
-                        message,
-                        code.span,
-                        "not a finite number",
-                    )))
-                }
-                Scalar::Node(_) => Err(depends_on_hit("the length of a list", code.span)),
-            }
-        };
-        let first = bound(&range.first)?;
-        let second = range.second.as_ref().map(&mut bound).transpose()?;
-        let last = bound(&range.last)?;
-        let step = second.map_or(1.0, |second| second - first);
-        if step == 0.0 {
-            let message = "this range makes no steps, so it would never end";
-            return Err(Failure::new(
-                Diagnostic::error("range-step", message, span, "its first two numbers are equal")
-                    .with_help("`[first, second .. last]` goes on by second - first"),
-            ));
-        }
-        // The last is included where it is met but for rounding.
-        let count = ((last - first) / step + 1e-9).floor() + 1.0;
-        if count < 1.0 {
-            return self.list(Vec::new(), span);
-        }
-        if count > self.limits.list as f64 {
-            self.check_length(usize::MAX, span)?;
-        }
-        self.steps = self.steps.saturating_add(count as u64);
-        self.step(span)?;
-        let items = (0..count as usize).map(|i| Value::Number(first + i as f64 * step)).collect();
-        self.list(items, span)
-    }
-
-    fn qualifiers(
-        &mut self,
-        qualifiers: &[QualifierCode],
-        body: &Code,
-        frame: Frame<'_>,
-        items: &mut Vec<Value>,
-        span: Span,
-    ) -> Outcome<()> {
-        let Some((qualifier, rest)) = qualifiers.split_first() else {
-            self.step(span)?;
-            self.check_length(items.len() + 1, span)?;
-            items.push(self.eval(body, frame)?);
-            return Ok(());
-        };
-        match qualifier {
-            QualifierCode::Generator(pattern, list) => {
-                // A range that is only walked through need not be made.
-                if let CodeKind::Range(range) = &list.kind
-                    && range.second.is_none()
-                {
-                    return self.walk_range(pattern, range, list.span, (rest, body), frame, items, span);
-                }
-                let Value::List(list) = self.eval(list, frame)? else {
-                    return Err(internal(list.span, "a generator over something else than a list").into());
-                };
-                for item in &list.items {
-                    self.bind(pattern, item, frame, span)?;
-                    self.qualifiers(rest, body, frame, items, span)?;
-                }
-                Ok(())
-            }
-            QualifierCode::Guard(condition) => match self.number(condition, frame)? {
-                Scalar::Known(0.0) => self.step(span),
-                Scalar::Known(_) => self.qualifiers(rest, body, frame, items, span),
-                Scalar::Node(_) => Err(depends_on_hit("the length of a list", condition.span)),
-            },
-            QualifierCode::Let(bindings) => {
-                self.bindings(bindings, frame)?;
-                self.qualifiers(rest, body, frame, items, span)
-            }
-        }
-    }
-
-    #[allow(clippy::too_many_arguments, reason = "the state of one loop")]
-    fn walk_range(
-        &mut self,
-        pattern: &Pattern,
-        range: &RangeCode,
-        range_span: Span,
-        (rest, body): (&[QualifierCode], &Code),
-        frame: Frame<'_>,
-        items: &mut Vec<Value>,
-        span: Span,
-    ) -> Outcome<()> {
-        let (first, last) = (self.number(&range.first, frame)?, self.number(&range.last, frame)?);
-        let (Scalar::Known(first), Scalar::Known(last)) = (first, last) else {
-            return Err(depends_on_hit("the length of a list", range_span));
-        };
-        if !(first.is_finite() && last.is_finite()) {
-            let message = "a range cannot have a bound that is not a finite number";
-            return Err(Failure::new(Diagnostic::error("range-bound", message, range_span, "this range")));
-        }
-        let count = ((last - first) + 1e-9).floor() + 1.0;
-        let mut i = 0.0;
-        while i < count {
-            self.bind(pattern, &Value::Number(first + i), frame, span)?;
-            self.qualifiers(rest, body, frame, items, span)?;
-            i += 1.0;
-        }
-        Ok(())
-    }
-
-    fn bindings(&mut self, bindings: &[Binding], frame: Frame<'_>) -> Outcome<()> {
+    pub(super) fn bindings(&mut self, bindings: &[Binding], frame: Frame<'_>) -> Outcome<()> {
         for binding in bindings {
             match binding {
                 Binding::Value(pattern, code) => {
@@ -614,125 +440,6 @@ impl<'a> Machine<'a> {
             })
             .collect::<Outcome<_>>()?;
         Ok(Arc::new(ClosureGroup { functions: lambda.functions.clone(), captured }))
-    }
-
-    /// Binds an irrefutable pattern.
-    fn bind(&mut self, pattern: &Pattern, value: &Value, frame: Frame<'_>, span: Span) -> Outcome<()> {
-        match self.matches(pattern, value, frame, span)? {
-            Matched::Yes => Ok(()),
-            Matched::No | Matched::Depends(_) => {
-                let message = format!("{} does not fit this pattern", value.describe());
-                Err(Failure::new(Diagnostic::error("no-match", message, span, "taken apart here")))
-            }
-        }
-    }
-
-    /// Whether a value fits a pattern; the names of the pattern are bound as far as it does.
-    fn matches(
-        &mut self,
-        pattern: &Pattern,
-        value: &Value,
-        frame: Frame<'_>,
-        span: Span,
-    ) -> Outcome<Matched> {
-        let equal = |scalar| match scalar {
-            Scalar::Known(0.0) => Matched::No,
-            Scalar::Known(_) => Matched::Yes,
-            depends => Matched::Depends(depends),
-        };
-        let inner: Vec<(&Pattern, Value)> = match pattern {
-            Pattern::Local(local) => {
-                self.set_local(frame, *local, value.clone());
-                return Ok(Matched::Yes);
-            }
-            Pattern::Wildcard => return Ok(Matched::Yes),
-            Pattern::Number(n) => return self.equal(&Value::Number(*n), value, span).map(equal),
-            Pattern::Bool(b) => return self.equal(&Value::Bool(*b), value, span).map(equal),
-            Pattern::Text(text) => {
-                return Ok(if matches!(value, Value::Text(v) if *v.text == **text) {
-                    Matched::Yes
-                } else {
-                    Matched::No
-                });
-            }
-            Pattern::Vector(items) => {
-                let (_, parts) =
-                    parts(value).ok_or_else(|| internal(span, "a vector pattern for something else"))?;
-                items.iter().zip(parts.map(|part| assemble(Kind::Number, [part; 3]))).collect()
-            }
-            Pattern::List { items, rest } => {
-                let Value::List(list) = value else {
-                    return Err(internal(span, "a list pattern for something else").into());
-                };
-                let fits = if rest.is_some() {
-                    list.items.len() >= items.len()
-                } else {
-                    list.items.len() == items.len()
-                };
-                if !fits {
-                    return Ok(Matched::No);
-                }
-                if let Some(Some(local)) = rest {
-                    let after = list.items.get(items.len()..).unwrap_or_default().to_vec();
-                    self.steps = self.steps.saturating_add(after.len() as u64);
-                    self.step(span)?;
-                    let after = self.list(after, span)?;
-                    self.set_local(frame, *local, after);
-                }
-                items.iter().zip(list.items.iter().cloned()).collect()
-            }
-            Pattern::Record(fields) => fields
-                .iter()
-                .map(|(_, name, p)| Ok((p, Self::field(value, name, span)?)))
-                .collect::<Outcome<_>>()?,
-        };
-        let mut all = Scalar::Known(1.0);
-        for (pattern, value) in inner {
-            match self.matches(pattern, &value, frame, span)? {
-                Matched::Yes => {}
-                Matched::No => return Ok(Matched::No),
-                Matched::Depends(on) => all = self.both(all, on, span)?,
-            }
-        }
-        Ok(equal(all))
-    }
-
-    fn arms(
-        &mut self,
-        subject: &Value,
-        arms: &[(Pattern, Code)],
-        frame: Frame<'_>,
-        span: Span,
-    ) -> Outcome<Value> {
-        let mut depends: Vec<(Scalar, Value)> = Vec::new();
-        let mut result = None;
-        for (pattern, body) in arms {
-            match self.matches(pattern, subject, frame, span)? {
-                Matched::No => {}
-                Matched::Yes => {
-                    result = Some(self.eval(body, frame)?);
-                    break;
-                }
-                Matched::Depends(on) => {
-                    self.branch(span)?;
-                    let value = self.eval(body, frame)?;
-                    depends.push((on, value));
-                }
-            }
-        }
-        self.branches -= depends.len() as u32;
-        let Some(mut result) = result else {
-            let message = "no case of this `match` fits";
-            let found = format!("this is {}", self.show(subject, 40));
-            return Err(Failure::new(
-                Diagnostic::error("no-match", message, span, found)
-                    .with_help("add a last case `_ -> ...` for all others"),
-            ));
-        };
-        for (on, value) in depends.into_iter().rev() {
-            result = self.merge(on, &value, &result, span)?;
-        }
-        Ok(result)
     }
 
     /// `{ record | field = value }`.
@@ -783,7 +490,7 @@ impl<'a> Machine<'a> {
         }
     }
 
-    fn field(record: &Value, name: &FieldName, span: Span) -> Outcome<Value> {
+    pub(super) fn field(record: &Value, name: &FieldName, span: Span) -> Outcome<Value> {
         let missing = || -> Box<Failure> {
             internal(span, &format!("a field `{}` that is not there", name.text)).into()
         };
@@ -858,174 +565,6 @@ impl<'a> Machine<'a> {
                 self.function(FunctionKind::Compose(left.clone(), right.clone()), nesting, span)
             }
             _ => self.arithmetic(operator, left, right, span),
-        }
-    }
-
-    fn call(&mut self, callee: &Code, arguments: &[Code], frame: Frame<'_>, span: Span) -> Outcome<Value> {
-        let Value::Function(function) = self.eval(callee, frame)? else {
-            return Err(internal(callee.span, "a call of something that is not a function").into());
-        };
-        match &function.kind {
-            FunctionKind::Closure(closure) => {
-                if let Some(code) = closure.group.functions.get(closure.index)
-                    && code.parameters.len() == arguments.len()
-                {
-                    let base = self.stack.len();
-                    for argument in arguments {
-                        match self.eval(argument, frame) {
-                            Ok(value) => self.stack.push(value),
-                            Err(error) => {
-                                self.stack.truncate(base);
-                                return Err(error);
-                            }
-                        }
-                    }
-                    return self.enter_closure(code, &closure.group, base, span);
-                }
-            }
-            FunctionKind::Native(native) if super::natives::arity(*native) == arguments.len() => {
-                let mut values: [Value; 4] = std::array::from_fn(|_| Value::Bool(false));
-                for (slot, argument) in values.iter_mut().zip(arguments) {
-                    *slot = self.eval(argument, frame)?;
-                }
-                return self.native(*native, values.get(..arguments.len()).unwrap_or_default(), span);
-            }
-            _ => {}
-        }
-        let arguments =
-            arguments.iter().map(|argument| self.eval(argument, frame)).collect::<Outcome<Vec<_>>>()?;
-        self.apply(&function, &arguments, span)
-    }
-
-    /// Runs a function whose arguments lie from `base` on.
-    fn enter_closure(
-        &mut self,
-        code: &Arc<FunctionCode>,
-        group: &Arc<ClosureGroup>,
-        base: usize,
-        span: Span,
-    ) -> Outcome<Value> {
-        if let Err(error) = self.enter(code, base, span) {
-            self.stack.truncate(base);
-            return Err(error);
-        }
-        let result = self.guarded(|machine| {
-            let frame = Frame { base, group: Some(group) };
-            for (i, parameter) in code.parameters.iter().enumerate() {
-                if !matches!(parameter, Pattern::Local(_)) {
-                    let value = machine.local(frame, i, span)?;
-                    machine.bind(parameter, &value, frame, span)?;
-                }
-            }
-            machine.eval(&code.body, frame)
-        });
-        self.leave(base);
-        result.map_err(|mut error| {
-            error.in_call(code.name.as_ref(), span);
-            error
-        })
-    }
-
-    /// Calls a function with any number of arguments: fewer than it takes give a function of the rest, more go on to its
-    /// result.
-    pub(super) fn apply(
-        &mut self,
-        function: &Arc<FunctionValue>,
-        arguments: &[Value],
-        span: Span,
-    ) -> Outcome<Value> {
-        let arity = function.arity();
-        if arguments.len() < arity {
-            let nesting = arguments.iter().map(Value::nesting).fold(function.nesting, u32::max) + 1;
-            let (function, arguments) = (function.clone(), arguments.to_vec());
-            return self.function(FunctionKind::Partial { function, arguments }, nesting, span);
-        }
-        let (now, later) = arguments.split_at(arity);
-        let result = self.apply_exactly(function, now, span)?;
-        if later.is_empty() {
-            return Ok(result);
-        }
-        match result {
-            Value::Function(function) => self.guarded(|machine| machine.apply(&function, later, span)),
-            other => Err(internal(span, &format!("a call of {}", other.describe())).into()),
-        }
-    }
-
-    fn apply_exactly(
-        &mut self,
-        function: &Arc<FunctionValue>,
-        arguments: &[Value],
-        span: Span,
-    ) -> Outcome<Value> {
-        match &function.kind {
-            FunctionKind::Closure(closure) => {
-                let code = closure.group.functions.get(closure.index);
-                let code = code.ok_or_else(|| internal(span, "a function that is not there"))?;
-                let base = self.stack.len();
-                self.stack.extend_from_slice(arguments);
-                self.enter_closure(code, &closure.group, base, span)
-            }
-            FunctionKind::Native(native) => self.native(*native, arguments, span),
-            FunctionKind::Constructor(constructor) => match arguments {
-                [Value::Record(record)] => {
-                    self.step(span)?;
-                    let given = self.given(constructor, record, span)?;
-                    self.construct(constructor, given, span)
-                }
-                _ => Err(internal(span, "a constructor without a record").into()),
-            },
-            FunctionKind::Partial { function, arguments: first } => {
-                let all: Vec<Value> = first.iter().chain(arguments).cloned().collect();
-                self.guarded(|machine| machine.apply(function, &all, span))
-            }
-            FunctionKind::Compose(first, second) => {
-                let between = self.apply_value(first, arguments, span)?;
-                self.apply_value(second, &[between], span)
-            }
-            FunctionKind::Placed { inverse, function } => match arguments {
-                [Value::Hit(hit)] => {
-                    let hit = self.moved(hit, inverse, span)?;
-                    self.guarded(|machine| machine.apply(function, &[Value::Hit(Arc::new(hit))], span))
-                }
-                _ => Err(internal(span, "a moved function of something else than a hit").into()),
-            },
-            FunctionKind::Select(condition, a, b) => {
-                let a = self.apply_value(a, arguments, span)?;
-                let b = self.apply_value(b, arguments, span)?;
-                self.merge(*condition, &a, &b, span)
-            }
-        }
-    }
-
-    /// Calls a value that is a function.
-    pub(super) fn apply_value(
-        &mut self,
-        function: &Value,
-        arguments: &[Value],
-        span: Span,
-    ) -> Outcome<Value> {
-        match function {
-            Value::Function(function) => self.guarded(|machine| machine.apply(function, arguments, span)),
-            other => Err(internal(span, &format!("a call of {}", other.describe())).into()),
-        }
-    }
-}
-
-impl FunctionValue {
-    /// How many arguments it takes.
-    pub(super) fn arity(&self) -> usize {
-        match &self.kind {
-            FunctionKind::Closure(closure) => {
-                closure.group.functions.get(closure.index).map_or(1, |code| code.parameters.len())
-            }
-            FunctionKind::Native(native) => super::natives::arity(*native),
-            FunctionKind::Partial { function, arguments } => {
-                function.arity().saturating_sub(arguments.len()).max(1)
-            }
-            FunctionKind::Constructor(_)
-            | FunctionKind::Compose(..)
-            | FunctionKind::Placed { .. }
-            | FunctionKind::Select(..) => 1,
         }
     }
 }

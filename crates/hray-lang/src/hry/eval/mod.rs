@@ -7,15 +7,18 @@
 //!
 //! Evaluation always ends: with a scene, or with an error that says which of the [`Limits`] was used up, and where.
 
+mod calls;
 mod code;
 mod color;
 mod compile;
 mod construct;
 mod failure;
 mod limits;
+mod lists;
 mod machine;
 mod natives;
 mod order;
+mod patterns;
 mod place;
 mod scalar;
 mod scene;

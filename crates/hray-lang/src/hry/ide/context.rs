@@ -110,7 +110,9 @@ pub(super) fn of_name(root: &SyntaxNode, offset: usize) -> Context {
         }
         kind if kind.is_type() => Context::Type,
         kind if kind.is_pattern() => match parent.parent() {
-            Some(definition) if at_top(&definition) => Context::Top,
+            Some(definition) if at_top(&definition) && definition.first_token().as_ref() == Some(&token) => {
+                Context::Top
+            }
             _ => Context::Nothing,
         },
         SyntaxKind::Definition | SyntaxKind::Annotation if at_top(&parent) => Context::Top,
@@ -133,4 +135,42 @@ pub(super) fn defines(field: &SyntaxNode) -> bool {
 
 fn record(field: &SyntaxNode) -> Context {
     field.parent().map_or(Context::Nothing, Context::Record)
+}
+
+/// The brackets that would have to be closed at an offset because nothing after it closes them: of those that are open
+/// there the innermost, up to one that is closed.
+pub(super) fn missing_brackets(root: &SyntaxNode, offset: usize) -> String {
+    let mut open: Vec<(SyntaxKind, bool)> = Vec::new();
+    let mut inside: Vec<(SyntaxKind, bool)> = Vec::new();
+    let tokens = root.descendants_with_tokens().filter_map(|element| element.into_token());
+    // How many of those inside are open still.
+    let (mut is_after, mut depth) = (false, 0);
+    for token in tokens {
+        if !is_after && span_of(token.text_range()).end > offset {
+            is_after = true;
+            inside.clone_from(&open);
+            depth = inside.len();
+        }
+        match token.kind() {
+            kind if kind.is_open() => open.push((kind.closing(), false)),
+            kind if kind.is_close() => {
+                // It closes the nearest of its kind; those in between are closed by nothing.
+                if let Some(at) = open.iter().rposition(|(closing, _)| *closing == kind) {
+                    if is_after && at < depth {
+                        inside.iter_mut().skip(at).take(1).for_each(|bracket| bracket.1 = true);
+                        depth = at;
+                    }
+                    open.truncate(at);
+                }
+            }
+            _ => {}
+        }
+        if is_after && open.is_empty() {
+            break;
+        }
+    }
+    if !is_after {
+        inside = open;
+    }
+    inside.iter().rev().take_while(|(_, closed)| !closed).map(|(closing, _)| closing.spelling()).collect()
 }

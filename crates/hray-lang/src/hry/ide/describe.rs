@@ -93,12 +93,12 @@ fn conditions(field: &FieldSpec) -> String {
 fn range(range: Range) -> Option<String> {
     Some(match range {
         Range::Any => return None,
-        Range::Positive => "greater than 0".into(),
+        Range::Positive | Range::Radius => "greater than 0".into(),
         Range::NonNegative => "0 or greater".into(),
         Range::Share => "from 0 to 1".into(),
         Range::Between(from, to) => format!("between {from} and {}", pi(to)),
         Range::Whole(from, to) => format!("a whole number from {from} to {to}"),
-        Range::Direction => "not zero".into(),
+        Range::Direction | Range::Normal => "not zero".into(),
         Range::Light => "0 or greater in every component".into(),
         Range::Positives => "greater than 0 in every component".into(),
     })

@@ -47,15 +47,14 @@ impl Analysis {
     fn hover_name(&self, token: &SyntaxToken, plain: Hover) -> Option<Hover> {
         let (_, checked) = self.hry.as_ref()?;
         let (span, name) = (plain.span, token.text());
-        match checked.definition_at(span.start) {
+        match self.target(span.start) {
             Some(Target::Global(global)) => {
                 let mut text = describe::documentation(self, global);
-                if let Some(definition) = describe::definition(self, global) {
-                    if let Some(FileId::Own(path)) = self.place(definition.span).map(|place| place.file) {
-                        if path != self.path {
-                            text = format!("{text}\n\nFrom `{path}`.").trim().to_owned();
-                        }
-                    }
+                if let Some(definition) = describe::definition(self, global)
+                    && let Some(FileId::Own(path)) = self.place(definition.span).map(|place| place.file)
+                    && path != self.path
+                {
+                    text = format!("{text}\n\nFrom `{path}`.").trim().to_owned();
                 }
                 let color = self.constant_global(global, 0).map(|linear| linear.map(encode));
                 Some(Hover { code: describe::signature(self, name, global), color, text, ..plain })

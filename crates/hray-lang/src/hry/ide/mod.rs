@@ -20,7 +20,7 @@ mod remarks;
 mod rename;
 mod symbols;
 
-pub use analysis::{Analysis, FileId, Place, is_classic};
+pub use analysis::{Analysis, FileId, Place};
 pub use colors::{ColorPlace, Presentation};
 pub use complete::{Suggestion, SuggestionKind};
 pub use hover::Hover;

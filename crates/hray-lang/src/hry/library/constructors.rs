@@ -114,7 +114,7 @@ pub const CONSTRUCTORS: &[Constructor] = &[
         example: "sphere { radius = 0.5, center = (0, 0.5, 0) }",
         fields: &[
             with_default("radius", T::Number, "1", "Distance from the centre to the surface.")
-                .range(Range::Positive)
+                .range(Range::Radius)
                 .unit(UNITS),
             with_default("center", T::Vec3, "(0, 0, 0)", "The centre.").unit(UNITS),
             MATERIAL,
@@ -128,7 +128,7 @@ pub const CONSTRUCTORS: &[Constructor] = &[
         example: "plane { normal = up, offset = -1 }",
         fields: &[
             with_default("normal", T::Vec3, "(0, 1, 0)", "A direction at right angles to it, of any length.")
-                .range(Range::Direction),
+                .range(Range::Normal),
             with_default(
                 "offset",
                 T::Number,

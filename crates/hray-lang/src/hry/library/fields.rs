@@ -70,6 +70,10 @@ pub enum Range {
     Light,
     /// Greater than 0 in every component.
     Positives,
+    /// A radius: greater than 0, where others are legal, as in classic scenes, but surely not meant: a warning.
+    Radius,
+    /// A normal: not zero, where zero is legal, as in classic scenes, but surely not meant: a warning.
+    Normal,
 }
 
 impl FieldSpec {

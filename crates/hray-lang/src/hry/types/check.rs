@@ -12,7 +12,8 @@ use crate::hry::sources::Sources;
 use crate::hry::syntax;
 use std::sync::{Arc, OnceLock};
 
-/// Finds the meaning of every name and the type of every expression of a program. What is wrong goes to `diagnostics`.
+/// Finds the meaning of every name and the type of every expression of a program. What is wrong goes to
+/// `diagnostics`.
 pub fn check(program: &Program, diagnostics: &mut Vec<Diagnostic>) -> Checked {
     let first = standard().modules.len();
     let own = first..program.modules.len();
@@ -26,7 +27,8 @@ pub fn check(program: &Program, diagnostics: &mut Vec<Diagnostic>) -> Checked {
     let mut infer = Infer::of_program(program, &names, standard_types().0.clone());
     infer.modules(own);
     if let Some(root) = program.root() {
-        let has_scene = root.syntax.definitions.iter().any(|d| d.name().is_some_and(|name| &*name.text == "scene"));
+        let has_scene =
+            root.syntax.definitions.iter().any(|d| d.name().is_some_and(|name| &*name.text == "scene"));
         // What is misspelt is not used; that is no news then.
         let is_sound = !diagnostics.iter().chain(&found).any(Diagnostic::is_error);
         if !has_scene {
@@ -39,6 +41,15 @@ pub fn check(program: &Program, diagnostics: &mut Vec<Diagnostic>) -> Checked {
     found.append(&mut infer.diagnostics);
     found.sort_by_key(|diagnostic| (diagnostic.primary.span.start, diagnostic.primary.span.end));
     found.dedup();
+    // Where the text could not be read, what was made of it says nothing about what was meant.
+    let unread: Vec<Span> = diagnostics
+        .iter()
+        .filter(|diagnostic| diagnostic.is_error())
+        .flat_map(|diagnostic| std::iter::once(&diagnostic.primary).chain(&diagnostic.secondary))
+        .map(|label| label.span)
+        .collect();
+    let touches = |span: Span| unread.iter().any(|other| span.start < other.end && other.start < span.end);
+    found.retain(|diagnostic| !touches(diagnostic.primary.span));
     diagnostics.extend(found);
     let Infer { types, notes, fields, literals, accesses, locals, .. } = infer;
     Checked::new(program, names, types, locals, notes, fields, literals, accesses)
@@ -67,8 +78,10 @@ pub(super) fn standard_types() -> &'static (Types, Vec<Diagnostic>) {
 
 /// The types of the native functions, as their table writes them.
 fn native_types(errors: &mut Vec<Diagnostic>) -> Types {
-    let text: String =
-        NATIVES.iter().map(|native| format!("{} : {}\n{} = 0\n", native.name, native.signature, native.name)).collect();
+    let text: String = NATIVES
+        .iter()
+        .map(|native| format!("{} : {}\n{} = 0\n", native.name, native.signature, native.name))
+        .collect();
     let parsed = syntax::parse(&text, 0);
     errors.extend(parsed.errors().iter().cloned());
     let module = parsed.module();
@@ -76,7 +89,8 @@ fn native_types(errors: &mut Vec<Diagnostic>) -> Types {
     let (sources, names) = (Sources::default(), Names::default());
     let mut infer = Infer::new(&modules, &sources, None, &names, Types::default());
     let schemes = NATIVES.iter().map(|native| {
-        let definition = module.definitions.iter().find(|d| d.name().is_some_and(|name| &*name.text == native.name));
+        let definition =
+            module.definitions.iter().find(|d| d.name().is_some_and(|name| &*name.text == native.name));
         match definition.and_then(|definition| definition.annotation.as_ref()) {
             Some(annotation) => infer.declared(annotation),
             None => {

@@ -54,7 +54,8 @@ pub struct Completion {
     pub fields: Vec<(String, String)>,
     /// The constructor whose record the place is in, and the fields that the record has already.
     pub record: Option<(&'static Constructor, Vec<&'static str>)>,
-    /// The names bound inside the definition that may be used here, with their types; those bound further in first.
+    /// The names bound inside the definition that may be used here, with their types; those bound further in
+    /// first.
     pub locals: Vec<(String, String)>,
 }
 
@@ -80,7 +81,8 @@ impl Checked {
         Self { names, types, locals, notes, fields, literals, accesses, definitions }
     }
 
-    /// The type of a definition, a native function or a constructor. None where an error kept it from being known.
+    /// The type of a definition, a native function or a constructor. None where an error kept it from being
+    /// known.
     #[must_use]
     pub fn scheme_of(&self, global: Global) -> Option<String> {
         let mut printer = Printer::new(&self.types.store);
@@ -160,7 +162,8 @@ impl Checked {
         field.map(|(_, constructor, field)| Target::Field(constructor, field))
     }
 
-    /// Every place in the program's own files where something is named, where it is defined included, in order.
+    /// Every place in the program's own files where something is named, where it is defined included, in
+    /// order.
     #[must_use]
     pub fn references(&self, target: &Target) -> Vec<Span> {
         let mut found: Vec<Span> = match target {
@@ -198,8 +201,9 @@ impl Checked {
         }
     }
 
-    /// What can be written at an offset: the fields of the expression that ends one byte before it (where that byte is a
-    /// point), or whose field the offset is in; the constructor whose record it is in; and the locals in scope.
+    /// What can be written at an offset: the fields of the expression that ends one byte before it (where
+    /// that byte is a point), or whose field the offset is in; the constructor whose record it is in; and the
+    /// locals in scope.
     #[must_use]
     pub fn completion_at(&self, offset: usize) -> Completion {
         let access =

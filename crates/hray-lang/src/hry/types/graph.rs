@@ -1,7 +1,8 @@
 //! Which definitions have to be looked at together.
 
-/// The strongly connected components of a graph: each after those that it leads to. `edges[i]` are the nodes that `i`
-/// leads to. (Tarjan, 1972, with its own stack, since chains of definitions are as long as the file.)
+/// The strongly connected components of a graph: each after those that it leads to. `edges[i]` are the nodes
+/// that `i` leads to. (Tarjan, 1972, with its own stack, since chains of definitions are as long as the
+/// file.)
 pub(super) fn components(edges: &[Vec<usize>]) -> Vec<Vec<usize>> {
     const UNSEEN: usize = usize::MAX;
     let mut search = Search {

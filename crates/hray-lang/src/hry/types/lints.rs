@@ -9,8 +9,14 @@ const fn lint(code: &'static str, explanation: &'static str) -> Lint {
 
 /// The warnings that this pass gives.
 pub const LINTS: &[Lint] = &[
-    lint("constant-condition", "The condition of an `if` is written as `true` or `false`, so one branch is never used."),
-    lint("division-by-zero", "A division by a zero that stands there as a number: the result is not a number."),
+    lint(
+        "constant-condition",
+        "The condition of an `if` is written as `true` or `false`, so one branch is never used.",
+    ),
+    lint(
+        "division-by-zero",
+        "A division by a zero that stands there as a number: the result is not a number.",
+    ),
     lint("negative-light", "A light or a share of a colour is negative: it takes light away."),
     lint("shadowing", "A name inside a definition hides one of the file, or one further out."),
     lint(
@@ -19,9 +25,15 @@ pub const LINTS: &[Lint] = &[
          falls on it.",
     ),
     lint("unreachable-arm", "A case of a `match` comes after one that takes everything."),
-    lint("unused-definition", "A definition that the scene does not need. Names that start with `_` are never unused."),
+    lint(
+        "unused-definition",
+        "A definition that the scene does not need. Names that start with `_` are never unused.",
+    ),
     lint("unused-import", "An import of which nothing is used."),
-    lint("unused-local", "A name bound by `let` that nothing uses. Names that start with `_` are never unused."),
+    lint(
+        "unused-local",
+        "A name bound by `let` that nothing uses. Names that start with `_` are never unused.",
+    ),
 ];
 
 /// A name inside a definition hides another.

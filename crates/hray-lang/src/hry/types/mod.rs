@@ -1,9 +1,11 @@
-//! Names and types: what every name means, what every expression is, and what is wrong with either, before anything runs.
+//! Names and types: what every name means, what every expression is, and what is wrong with either, before
+//! anything runs.
 //!
-//! Types are inferred (Hindley 1969, Milner 1978): no annotation is needed, and what is accepted does not go wrong by its
-//! type. Three things go beyond the textbook. Variables can stand for a kind of types (`numeric`, `vector`, ...). What is
-//! demanded of a type that is not known yet - arithmetic, a field, a record for a constructor - waits until it is, and
-//! belongs to the type of the definition where it never is. And a field that may vary takes a value or a function of a hit.
+//! Types are inferred (Hindley 1969, Milner 1978): no annotation is needed, and what is accepted does not go
+//! wrong by its type. Three things go beyond the textbook. Variables can stand for a kind of types
+//! (`numeric`, `vector`, ...). What is demanded of a type that is not known yet - arithmetic, a field, a
+//! record for a constructor - waits until it is, and belongs to the type of the definition where it never is.
+//! And a field that may vary takes a value or a function of a hit.
 
 mod check;
 mod checked;

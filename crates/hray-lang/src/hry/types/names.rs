@@ -32,7 +32,8 @@ pub(super) struct Local {
     /// Whether it is bound by `let`.
     pub(super) is_let: bool,
     pub(super) is_used: bool,
-    /// Of a parameter of a definition: whether fields of a hit are read from it that tell that it is one, and no others.
+    /// Of a parameter of a definition: whether fields of a hit are read from it that tell that it is one, and
+    /// no others.
     pub(super) fields: Fields,
 }
 
@@ -198,7 +199,7 @@ impl Resolver<'_> {
 
     fn bind_name(&mut self, name: &Arc<str>, span: Span, scope: Span, is_let: bool, locals: &mut Vec<usize>) {
         let outer = self.scopes.get(name).and_then(|locals| locals.last());
-        let outer = outer.and_then(|local| self.names.locals.get(*local).map(|local| (*local).span));
+        let outer = outer.and_then(|local| self.names.locals.get(*local).map(|local| local.span));
         let together =
             locals.iter().any(|local| self.names.locals.get(*local).is_some_and(|l| l.name == *name));
         if let (true, Some(first)) = (together, outer) {
@@ -207,13 +208,20 @@ impl Resolver<'_> {
                     .with_secondary(first, "first bound here")
                     .with_help("give one of them another name, or write `_` for what is not needed");
             self.diagnostics.push(error);
-        } else if let Some(first) = outer.or_else(|| self.own.get(name).copied()) {
-            if !name.starts_with('_') {
-                self.diagnostics.push(lints::shadowing(name, span, first, outer.is_some()));
-            }
+        } else if let Some(first) = outer.or_else(|| self.own.get(name).copied())
+            && !name.starts_with('_')
+        {
+            self.diagnostics.push(lints::shadowing(name, span, first, outer.is_some()));
         }
         let local = self.names.locals.len();
-        self.names.locals.push(Local { name: name.clone(), span, scope, is_let, is_used: false, fields: Fields::None });
+        self.names.locals.push(Local {
+            name: name.clone(),
+            span,
+            scope,
+            is_let,
+            is_used: false,
+            fields: Fields::None,
+        });
         self.names.bound.insert(span.start, local);
         self.scopes.entry(name.clone()).or_default().push(local);
         locals.push(local);
@@ -290,10 +298,10 @@ impl Resolver<'_> {
         };
         match self.groups.get_mut(group).and_then(|group| Some((group.current?, group))) {
             Some((from, group)) => {
-                if let Some(edges) = group.edges.get_mut(from) {
-                    if edges.last() != Some(&place) {
-                        edges.push(place);
-                    }
+                if let Some(edges) = group.edges.get_mut(from)
+                    && edges.last() != Some(&place)
+                {
+                    edges.push(place);
                 }
                 // A binding that only uses itself is of no use.
                 if from != place {
@@ -324,10 +332,10 @@ impl Resolver<'_> {
     }
 
     fn needed(&mut self, global: Global) {
-        if let Global::Definition { module, index } = global {
-            if self.needs.last() != Some(&(module, index)) {
-                self.needs.push((module, index));
-            }
+        if let Global::Definition { module, index } = global
+            && self.needs.last() != Some(&(module, index))
+        {
+            self.needs.push((module, index));
         }
     }
 

@@ -51,7 +51,12 @@ impl<'s> Printer<'s> {
                     demands.push(format!("{} fits `{}`", self.show(*record), constructor.name));
                 }
                 Demand::Slot { value, constructor, field } => {
-                    demands.push(format!("{} fits `{}` of `{}`", self.show(*value), field.name, constructor.name));
+                    demands.push(format!(
+                        "{} fits `{}` of `{}`",
+                        self.show(*value),
+                        field.name,
+                        constructor.name
+                    ));
                 }
             }
         }
@@ -153,7 +158,7 @@ impl<'s> Printer<'s> {
     pub(super) fn words(&mut self, ty: Ty) -> String {
         match self.store.get(ty) {
             Node::Alone(head) => head.words().into(),
-            Node::List(of) => match self.plural(*of) {
+            Node::List(of) => match self.plural(*of, 0) {
                 Some(plural) => format!("a list of {plural}"),
                 None => "a list".into(),
             },
@@ -169,12 +174,16 @@ impl<'s> Printer<'s> {
 
     /// A type in words, several of it.
     pub(super) fn several(&mut self, ty: Ty) -> String {
-        self.plural(ty).unwrap_or_else(|| "these".into())
+        self.plural(ty, 0).unwrap_or_else(|| "these".into())
     }
 
-    fn plural(&mut self, ty: Ty) -> Option<String> {
+    fn plural(&mut self, ty: Ty, depth: usize) -> Option<String> {
         match self.store.get(ty) {
-            Node::List(of) => Some(self.plural(*of).map_or_else(|| "lists".into(), |of| format!("lists of {of}"))),
+            Node::List(_) if depth > 2 => Some("lists".into()),
+            Node::List(of) => {
+                let of = self.plural(*of, depth + 1);
+                Some(of.map_or_else(|| "lists".into(), |of| format!("lists of {of}")))
+            }
             Node::Function(..) => Some(format!("functions (`{}`)", self.show(ty))),
             Node::Record(_) => Some("records".into()),
             _ => self.store.head(ty).map(|head| head.plural().into()),

@@ -346,7 +346,8 @@ impl Store {
                 Ok(())
             }
             Node::Rigid { name, level, kind: known } => {
-                // An annotation has no word for what can be compared, so a plain variable may turn out to be that.
+                // An annotation has no word for what can be compared, so a plain variable may turn out to be
+                // that.
                 if known.is_any() && kind == Kind::EQUATABLE {
                     self.set(ty, Node::Rigid { name, level, kind });
                     return Ok(());
@@ -386,7 +387,8 @@ impl Store {
         self.marks.get_mut(ty.0 as usize).is_some_and(|slot| std::mem::replace(slot, mark) != mark)
     }
 
-    /// The variables inside types, rigid or not, each once, in the order of appearance; and how many nodes there are.
+    /// The variables inside types, rigid or not, each once, in the order of appearance; and how many nodes
+    /// there are.
     pub(super) fn variables(&mut self, types: impl IntoIterator<Item = Ty>) -> (Vec<Ty>, usize) {
         let mut open: Vec<Ty> = types.into_iter().collect();
         open.reverse();
@@ -412,7 +414,8 @@ impl Store {
         (found, size)
     }
 
-    /// How deep a type nests, counted up to [`MOST_NESTED`] and a bit. The results of a function count as one level each.
+    /// How deep a type nests, counted up to [`MOST_NESTED`] and a bit. The results of a function count as one
+    /// level each.
     pub(super) fn is_too_deep(&self, ty: Ty) -> bool {
         // Memory over what was seen keeps shared parts from being walked again and again.
         let mut deepest: HashMap<Ty, usize> = HashMap::new();
@@ -437,7 +440,8 @@ impl Store {
         false
     }
 
-    /// A copy with some variables replaced; parts without any are shared. The map remembers what was copied already.
+    /// A copy with some variables replaced; parts without any are shared. The map remembers what was copied
+    /// already.
     pub(super) fn copy(&mut self, ty: Ty, map: &mut HashMap<Ty, Ty>, depth: usize) -> Ty {
         let ty = self.find(ty);
         if let Some(known) = map.get(&ty) {

@@ -6,8 +6,8 @@ use crate::hry::program::{Global, LoadedModule, listed, nearest};
 use std::collections::HashMap;
 use std::sync::Arc;
 
-/// A name of another language, and how its meaning is written here. Where the second is not empty, it can simply be put
-/// in the name's place.
+/// A name of another language, and how its meaning is written here. Where the second is not empty, it can
+/// simply be put in the name's place.
 struct Foreign(&'static str, &'static str, &'static str);
 
 /// In alphabetical order, in small letters.
@@ -198,10 +198,10 @@ pub(super) fn name(name: &str, span: Span, module: &LoadedModule, locals: &[&str
     if let Some(foreign) = foreign(name) {
         return suggest_foreign(error, span, foreign);
     }
-    if let Some(prefix) = name.strip_suffix("deg").or_else(|| name.strip_suffix("rad")) {
-        if prefix.parse::<f64>().is_ok() {
-            return error.with_help("`deg` directly follows the digits of a number");
-        }
+    if let Some(prefix) = name.strip_suffix("deg").or_else(|| name.strip_suffix("rad"))
+        && prefix.parse::<f64>().is_ok()
+    {
+        return error.with_help("`deg` directly follows the digits of a number");
     }
     let all = module.scope.all();
     let known = locals.iter().copied().chain(all.iter().map(|(name, _)| &**name));
@@ -295,4 +295,25 @@ pub(super) fn field_synonym(constructor: &Constructor, name: &str) -> Option<&'s
     let lower: String = name.to_lowercase().chars().filter(|c| *c != '_').collect();
     let matching = SYNONYMS.iter().filter(|(foreign, _)| foreign.iter().any(|f| f.replace('_', "") == lower));
     matching.flat_map(|(_, ours)| ours.iter()).copied().find(|ours| constructor.field(ours).is_some())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::hry::program::standard;
+
+    #[test]
+    fn what_is_suggested_exists() {
+        for Foreign(name, here, help) in FOREIGN {
+            assert!(!here.is_empty() || !help.is_empty(), "{name}");
+            assert!(here.is_empty() || standard().names.contains_key(*here), "{name}: {here}");
+            assert_eq!(*name, name.to_lowercase());
+        }
+    }
+
+    #[test]
+    fn names_of_one_letter_are_near_to_nothing() {
+        assert_eq!(near("c", ["a", "b"].into_iter()), None);
+        assert_eq!(near("radios", ["radius", "center"].into_iter()), Some("radius"));
+    }
 }

@@ -102,10 +102,11 @@ fn unused_import(
         return;
     };
     for name in listed {
-        if let Some(Global::Definition { module, index }) = module.scope.names.get(&name.text) {
-            if *module == imported && !used.contains(&(*module, *index)) {
-                found.push(warn(name.span, &format!("`{}`", name.text)));
-            }
+        if let Some(Global::Definition { module, index }) = module.scope.names.get(&name.text)
+            && *module == imported
+            && !used.contains(&(*module, *index))
+        {
+            found.push(warn(name.span, &format!("`{}`", name.text)));
         }
     }
 }

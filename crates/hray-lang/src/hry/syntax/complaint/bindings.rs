@@ -86,6 +86,18 @@ impl Parser<'_> {
                     Diagnostic::error(code, message, here, format!("expected `=` and the value of {name}"));
                 return error.with_help("write `f x = if x > 0 then 1 else 2`");
             }
+            S::Equal | S::Arrow => {
+                let message =
+                    format!("a definition is written with `=`, not with `{}`", self.text_of(self.at));
+                let error = Diagnostic::error(code, message, here, "expected `=`");
+                return error.with_suggestion(here, "=", "write `=`");
+            }
+            S::Comma => {
+                let message = "a definition at the top has one name";
+                let error = Diagnostic::error(code, message, here, format!("expected `=` after {name}"));
+                return error
+                    .with_help("in a `let`, a vector can be taken apart: `let (x, y) = point in x + y`");
+            }
             S::OpenBrace | S::OpenBracket => return self.nameless(first),
             S::Number | S::Text | S::Color | S::OpenParen | S::TrueKeyword | S::FalseKeyword => {
                 let message = format!("expected `=` after {name}, found {}", self.found());
@@ -263,7 +275,7 @@ impl Parser<'_> {
         match self.current {
             SyntaxKind::Semicolon => {
                 let error = error(";");
-                let is_last = !self.tokens.get(self.at + 1).is_some_and(|next| !next.starts_line)
+                let is_last = self.tokens.get(self.at + 1).is_none_or(|next| next.starts_line)
                     || self.kind_ahead(1) == SyntaxKind::InKeyword;
                 let error = if is_last {
                     error.with_suggestion(here, "", "remove it")

@@ -85,7 +85,8 @@ impl Parser<'_> {
             S::Bar => {
                 let message = format!("`|` cannot follow here, expected `,` or `{bracket}`");
                 error(message, "not expected here")
-                    .with_help("`|` belongs in `[x | x <- list]` and `{ record | field = value }`")
+                    .with_note("`|` belongs in `[x | x <- list, x > 0]` and `{ record | field = value }`")
+                    .with_suggestion(here, ",", "what follows the first `|` is separated by commas")
             }
             _ => {
                 let message = format!("expected `,` or `{bracket}`, found {}", self.found());
@@ -99,10 +100,16 @@ impl Parser<'_> {
     pub(in super::super) fn empty_parentheses(&mut self, first: usize) {
         let span = self.span_of(first).to(self.here());
         let message = "there is nothing in these parentheses";
-        let error = Diagnostic::error("empty-parentheses", message, span, "expected a value");
-        self.report(
-            error.with_help("a function without arguments is just a value: leave the parentheses out"),
-        );
+        let error = Diagnostic::error("empty-parentheses", message, span, "expected something in them");
+        let before = first.checked_sub(1).filter(|before| self.kind_of(*before) == SyntaxKind::Name);
+        let error = match before {
+            Some(name) => {
+                let surplus = Span::new(self.span_of(name).end, span.end);
+                error.with_suggestion(surplus, "", "what takes no arguments is just a value: leave them out")
+            }
+            None => error.with_help("parentheses hold a value, or the two or three components of a vector"),
+        };
+        self.report(error);
         self.failed_at = Some(self.at);
     }
 
@@ -139,6 +146,10 @@ impl Parser<'_> {
                 "expected a number before `..`",
             );
             self.report(error.with_help("a range is written `[0 .. 10]` or, with a step, `[0, 2 .. 10]`"));
+        } else if matches!(self.text_of(self.at), "..." | "\u{2026}") {
+            let error =
+                Diagnostic::error("list-spread", "lists are joined with `++`", here, "not a part of a list");
+            self.report(error.with_help("write `[1, 2] ++ rest`"));
         } else {
             let comma = self.span_of(self.at.saturating_sub(1));
             let error =

@@ -39,6 +39,14 @@ pub(crate) fn block_comment(text: &str, span: Span) -> Option<Diagnostic> {
     let nests = text.matches("{-").count() > 1 && text.contains("-}");
     let error =
         if nests { error.with_note("comments nest: every `{-` needs a `-}` of its own") } else { error };
+    if text.chars().nth(2).is_some_and(|next| next.is_alphanumeric() || next == '(') {
+        let minus = Span::at(span.start + 1);
+        return Some(error.with_suggestion(
+            minus,
+            " ",
+            "for a negative value in braces, put a space before the `-`",
+        ));
+    }
     Some(error.with_help("close it with `-}`; a comment of one line is written `-- ...`"))
 }
 

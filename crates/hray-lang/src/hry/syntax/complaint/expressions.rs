@@ -123,6 +123,12 @@ impl Parser<'_> {
         self.with_layout(error)
     }
 
+    pub(in super::super) fn no_subject(&self) -> Diagnostic {
+        let message = "this `match` does not say what it looks at";
+        let error = Diagnostic::error("missing-value", message, self.here(), "expected a value before this");
+        error.with_help("write `match list { [] -> 0, [first, .. rest] -> first }`")
+    }
+
     pub(in super::super) fn no_arms(&self, start: Mark) -> Diagnostic {
         let message = format!("expected the arms of this `match`, found {}", self.found());
         let error = Diagnostic::error("missing-arms", message, self.here(), "expected `{`");

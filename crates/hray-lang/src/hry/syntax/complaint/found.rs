@@ -13,6 +13,7 @@ impl Parser<'_> {
         }
         match self.definition_name() {
             Some(name) => format!("the end of {}", quoted(name)),
+            None if self.at < self.tokens.len() => "the end of the line".into(),
             None => "the end of the file".into(),
         }
     }

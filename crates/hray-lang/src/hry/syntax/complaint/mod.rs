@@ -18,6 +18,17 @@ use crate::diagnostic::Diagnostic;
 /// Puts errors in their order, without those that others explain, and no more than anybody reads.
 pub(crate) fn tidy(text: &str, base: usize, mut errors: Vec<Diagnostic>) -> Vec<Diagnostic> {
     errors.sort_by_key(|error| (error.primary.span.start, rank(error)));
+    let comment =
+        errors.iter().find(|error| error.code == "unclosed-comment").map(|error| error.primary.span.start);
+    if let Some(comment) = comment {
+        let start =
+            text.get(..comment.saturating_sub(base)).and_then(|text| text.rfind('\n')).map_or(0, |at| at + 1);
+        // The comment hides the rest of the text, so what is missing there is not missing.
+        errors.retain(|error| {
+            is_lexical(error.code)
+                || error.primary.span.end < base + start && error.code != "unclosed-bracket"
+        });
+    }
     let mut kept: Vec<Diagnostic> = Vec::new();
     for error in errors {
         // What is inside the place of another error may say it better.
@@ -36,7 +47,7 @@ pub(crate) fn tidy(text: &str, base: usize, mut errors: Vec<Diagnostic>) -> Vec<
 /// knows what they were meant for.
 fn rank(error: &Diagnostic) -> u8 {
     match error.code {
-        "missing-backslash" | "list-pattern" => 0,
+        "missing-backslash" | "list-pattern" | "list-spread" => 0,
         code if is_lexical(code) => 1,
         _ => 2,
     }

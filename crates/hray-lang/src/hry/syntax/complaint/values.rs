@@ -391,6 +391,10 @@ impl Parser<'_> {
                 "to subtract, put a space after the `-`",
             );
         }
+        if self.open > 0 && matches!(operand, "step" | "by") && self.kind_ahead(1) == SyntaxKind::Number {
+            let error = error("range", "the step of a range is given by its second element".into());
+            return error.with_help("write `[0, 2 .. 10]`: 0, 2, 4 and so on up to 10");
+        }
         if self.open > 0 && self.around == Around::Condition {
             let message = format!("missing `,` between this {what} and {}", self.found());
             return error("missing-comma", message).with_suggestion(gap, ",", "add a comma");

@@ -88,16 +88,10 @@ impl Parser<'_> {
         }
         if self.is(SyntaxKind::AsKeyword) {
             self.bump();
-            if !self.eat(SyntaxKind::Name) {
-                self.fail(Self::no_import_name);
-            }
+            self.import_name();
         } else if self.is(SyntaxKind::OpenParen) {
             let outer = self.open();
-            self.elements(SyntaxKind::CloseParen, |parser| {
-                if !parser.eat(SyntaxKind::Name) {
-                    parser.fail(Self::no_import_name);
-                }
-            });
+            self.elements(SyntaxKind::CloseParen, Self::import_name);
             self.close(SyntaxKind::CloseParen, outer);
         }
         if !self.is_end() {
@@ -105,6 +99,15 @@ impl Parser<'_> {
             self.skip_binding(Set::of(&[]));
         }
         self.node(SyntaxKind::Import, start);
+    }
+
+    fn import_name(&mut self) {
+        if self.is(SyntaxKind::TypeName) {
+            self.upper_case();
+            self.bump();
+        } else if !self.eat(SyntaxKind::Name) {
+            self.fail(Self::no_import_name);
+        }
     }
 
     /// An annotation or a definition, in a layout of its own; how deep it is.

@@ -204,7 +204,14 @@ impl Parser<'_> {
     fn match_arms(&mut self) -> Done {
         let start = self.mark();
         self.bump();
-        let mut height = self.inside(Around::Subject, Self::expr).height;
+        let has_arms = self.is(SyntaxKind::OpenBrace)
+            && super::super::brackets::leads_to(self.tokens, self.at + 1, SyntaxKind::Arrow, false).is_some();
+        let mut height = if has_arms {
+            self.fail(Self::no_subject);
+            self.error_expr(self.mark()).height
+        } else {
+            self.inside(Around::Subject, Self::expr).height
+        };
         if !self.is(SyntaxKind::OpenBrace) {
             self.fail(|parser| parser.no_arms(start));
             return self.expr_node(SyntaxKind::ErrorExpr, start, height);

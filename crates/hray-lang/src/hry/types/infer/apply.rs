@@ -14,8 +14,16 @@ struct Call<'a, 'p> {
     arguments: &'a [&'p Expr],
     /// The type of the function before any argument.
     whole: Ty,
-    /// An argument that was refused, what would have been taken, and the place of the complaint.
-    refused: Option<(usize, Ty, usize)>,
+    /// An argument that was refused.
+    refused: Option<Refused>,
+}
+
+#[derive(Clone, Copy)]
+struct Refused {
+    found: Ty,
+    wanted: Ty,
+    /// The place of the complaint.
+    complaint: usize,
 }
 
 impl<'p> Infer<'p> {
@@ -76,21 +84,30 @@ impl<'p> Infer<'p> {
     }
 
     /// One argument of a call. None where nothing more can be said about the call.
-    fn argument(&mut self, call: &mut Call<'_, 'p>, index: usize, argument: &'p Expr, from: Ty) -> Option<()> {
+    fn argument(
+        &mut self,
+        call: &mut Call<'_, 'p>,
+        index: usize,
+        argument: &'p Expr,
+        from: Ty,
+    ) -> Option<()> {
         let why = Why::Argument { callee: call.callee, index, whole: call.whole };
-        if let Some((_, wanted, complaint)) = call.refused {
+        if let Some(refused) = call.refused {
             // What comes after an argument that was refused is probably off, too.
             let found = self.expr(argument, None);
-            let head = self.types.store.head(found);
-            if head.is_some() && head == self.types.store.head(wanted) {
-                self.suggest_order(complaint, call.callee, call.arguments);
+            let fits = |one: Ty, place: Ty| {
+                self.types.store.head(one).is_some_and(|head| self.types.store.heads(place).has(head))
+            };
+            if fits(found, refused.wanted) && fits(refused.found, from) && !fits(found, from) {
+                self.suggest_order(refused.complaint, call.callee, call.arguments);
             }
             return Some(());
         }
-        if let ExprKind::Vector(parts) = &argument.kind {
-            if index == 0 && call.arguments.len() == 1 {
-                return self.vector_argument(call, argument, parts, from, why);
-            }
+        if let ExprKind::Vector(parts) = &argument.kind
+            && index == 0
+            && call.arguments.len() == 1
+        {
+            return self.vector_argument(call, argument, parts, from, why);
         }
         let before = self.diagnostics.len();
         self.expr(argument, Some((from, why)));
@@ -102,12 +119,19 @@ impl<'p> Infer<'p> {
             self.suggest_parentheses(complaint, call.arguments, index);
             return None;
         }
-        call.refused = Some((index, from, complaint));
+        let found = self.refused_type(argument, from);
+        call.refused = Some(Refused { found, wanted: from, complaint });
         Some(())
     }
 
-    /// The only argument of a call, written as a vector. `f (a, b)` probably meant `f a b` where `f` takes no vector, or
-    /// `a` is no number.
+    /// The type that an argument has, which was refused.
+    fn refused_type(&self, argument: &Expr, wanted: Ty) -> Ty {
+        let found = self.refused.filter(|(span, _)| *span == argument.span);
+        found.map_or(wanted, |(_, ty)| ty)
+    }
+
+    /// The only argument of a call, written as a vector. `f (a, b)` probably meant `f a b` where `f` takes no
+    /// vector, or `a` is no number.
     fn vector_argument(
         &mut self,
         call: &Call<'_, 'p>,
@@ -142,7 +166,8 @@ impl<'p> Infer<'p> {
         Some(())
     }
 
-    /// Whether `f g x` probably meant `f (g x)`: `g` is a function where none is taken, and `x` would be one too many.
+    /// Whether `f g x` probably meant `f (g x)`: `g` is a function where none is taken, and `x` would be one
+    /// too many.
     fn is_call_without_parentheses(&self, call: &Call<'_, 'p>, index: usize) -> bool {
         let Some(argument) = call.arguments.get(index) else { return false };
         let piped = call.arguments.iter().any(|argument| argument.span.end <= call.callee.span.start);

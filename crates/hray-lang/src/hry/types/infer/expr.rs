@@ -24,8 +24,8 @@ pub(in crate::hry::types) const fn made(constructor: &Constructor) -> Ty {
 }
 
 impl<'p> Infer<'p> {
-    /// The type of an expression. Where one is expected, the expression is made to have it, or an error says that it has
-    /// not, and the expected type is given.
+    /// The type of an expression. Where one is expected, the expression is made to have it, or an error says
+    /// that it has not, and the expected type is given.
     pub(super) fn expr(&mut self, expr: &'p Expr, expected: Expected<'p>) -> Ty {
         if self.exhausted {
             return Ty::ERROR;

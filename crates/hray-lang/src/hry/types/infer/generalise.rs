@@ -71,8 +71,8 @@ impl<'p> Infer<'p> {
         self.solve();
     }
 
-    /// Demands on the variables of annotations must hold for all that those stand for. What else they depend on is made a
-    /// number where it can be, which goes with everything.
+    /// Demands on the variables of annotations must hold for all that those stand for. What else they depend
+    /// on is made a number where it can be, which goes with everything.
     fn settle_rigid(&mut self, open: &[usize]) {
         for id in open {
             let Some(constraint) = self.constraints.get(*id).cloned() else { continue };
@@ -95,7 +95,8 @@ impl<'p> Infer<'p> {
         }
     }
 
-    /// Demands that also concern variables from outside stay open, and so do all variables that they concern. The others.
+    /// Demands that also concern variables from outside stay open, and so do all variables that they concern.
+    /// The others.
     fn keep_outer(&mut self, open: Vec<usize>) -> Vec<usize> {
         let mut concerned: HashMap<Ty, Vec<usize>> = HashMap::new();
         let mut outer = Vec::new();
@@ -154,8 +155,8 @@ impl<'p> Infer<'p> {
         Scheme { ty: member.ty, bound, constraints }
     }
 
-    /// The demands that concern some variables, directly or not; their variables are added. Demands on what cannot be seen
-    /// from outside are about values that nothing has, so they are dropped.
+    /// The demands that concern some variables, directly or not; their variables are added. Demands on what
+    /// cannot be seen from outside are about values that nothing has, so they are dropped.
     fn connected(&mut self, bound: &mut Vec<Ty>, closed: &[usize]) -> Vec<Constraint> {
         if closed.is_empty() || bound.is_empty() {
             return Vec::new();

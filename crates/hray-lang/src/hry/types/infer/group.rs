@@ -198,8 +198,10 @@ impl<'p> Infer<'p> {
     pub(super) fn body(&mut self, definition: &'p Definition, (parameters, result): &(Vec<Ty>, Ty)) {
         for (pattern, ty) in definition.parameters.iter().zip(parameters) {
             self.pattern(pattern, *ty, pattern.span, false);
-            // Generalisation would find it to be a hit; knowing it before the body makes for better errors there.
-            let local = self.names.bound.get(&pattern.span.start).and_then(|local| self.names.locals.get(*local));
+            // Generalisation would find it to be a hit; knowing it before the body makes for better errors
+            // there.
+            let local =
+                self.names.bound.get(&pattern.span.start).and_then(|local| self.names.locals.get(*local));
             if local.is_some_and(|local| local.span == pattern.span && local.fields == Fields::OfAHit) {
                 let _ = self.unify(*ty, Ty::HIT);
             }

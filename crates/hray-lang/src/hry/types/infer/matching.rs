@@ -79,8 +79,8 @@ fn takes_all(pattern: &Pattern) -> bool {
     }
 }
 
-/// A value that no arm takes. It may also show one that several arms take together in a roundabout way: those are to be
-/// followed by a case for everything else.
+/// A value that no arm takes. It may also show one that several arms take together in a roundabout way: those
+/// are to be followed by a case for everything else.
 fn missing(arms: &[(Pattern, Expr)]) -> Option<String> {
     let patterns = || arms.iter().map(|(pattern, _)| &pattern.kind);
     if patterns().any(|pattern| matches!(pattern, PatternKind::Bool(_))) {

@@ -111,6 +111,8 @@ pub(super) struct Infer<'p> {
     waiting_fields: HashMap<Ty, Vec<usize>>,
     registered: HashSet<(Ty, usize)>,
     exhausted: bool,
+    /// The last expression that was not what was expected, and its type.
+    refused: Option<(Span, Ty)>,
 }
 
 impl<'p> Infer<'p> {
@@ -143,6 +145,7 @@ impl<'p> Infer<'p> {
             waiting_fields: HashMap::new(),
             registered: HashSet::new(),
             exhausted: false,
+            refused: None,
         }
     }
 
@@ -207,6 +210,7 @@ impl<'p> Infer<'p> {
     fn settle(&mut self, expr: &'p Expr, found: Ty, expected: Expected<'p>) -> Ty {
         let Some((ty, why)) = expected else { return found };
         if let Err(clash) = self.unify(found, ty) {
+            self.refused = Some((expr.span, found));
             let diagnostic = self.mismatch(Some(expr), expr.span, found, ty, why, clash);
             self.report(diagnostic);
         }

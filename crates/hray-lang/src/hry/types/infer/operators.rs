@@ -165,9 +165,16 @@ impl<'p> Infer<'p> {
         self.call(expr, function, &[value], expected)
     }
 
-    fn append(&mut self, expr: &'p Expr, span: Span, [left, right]: [&'p Expr; 2], expected: Expected<'p>) -> Ty {
+    fn append(
+        &mut self,
+        expr: &'p Expr,
+        span: Span,
+        [left, right]: [&'p Expr; 2],
+        expected: Expected<'p>,
+    ) -> Ty {
         let known = expected.filter(|(ty, _)| {
-            matches!(self.types.store.get(*ty), Node::List(_)) || self.types.store.head(*ty) == Some(Head::Text)
+            matches!(self.types.store.get(*ty), Node::List(_))
+                || self.types.store.head(*ty) == Some(Head::Text)
         });
         if let Some((ty, why)) = known {
             self.expr(left, Some((ty, why)));
@@ -187,9 +194,16 @@ impl<'p> Infer<'p> {
 
     fn division_by_zero(&mut self, operator: B, span: Span, right: &Expr) {
         if matches!(right.kind, ExprKind::Number(0.0)) {
-            let message = if operator == B::Divide { "this divides by 0" } else { "this is the rest of a division by 0" };
-            let warning = Diagnostic::warning("division-by-zero", message, span.to(right.span), "gives no number");
-            self.report(warning.with_help("a surface with such a value is black or white, or not there at all"));
+            let message = if operator == B::Divide {
+                "this divides by 0"
+            } else {
+                "this is the rest of a division by 0"
+            };
+            let warning =
+                Diagnostic::warning("division-by-zero", message, span.to(right.span), "gives no number");
+            self.report(
+                warning.with_help("a surface with such a value is black or white, or not there at all"),
+            );
         }
     }
 
@@ -197,7 +211,8 @@ impl<'p> Infer<'p> {
         if let ExprKind::Bool(value) = condition.kind {
             let branch = if value { "else" } else { "then" };
             let message = format!("this condition is always {value}");
-            let warning = Diagnostic::warning("constant-condition", message, condition.span, "always the same");
+            let warning =
+                Diagnostic::warning("constant-condition", message, condition.span, "always the same");
             self.report(warning.with_help(format!("what follows `{branch}` is never used")));
         }
     }

@@ -8,8 +8,8 @@ use crate::hry::types::store::Ty;
 use std::sync::Arc;
 
 impl<'p> Infer<'p> {
-    /// Binds the names of a pattern that takes a value of this type. `subject` is where the value comes from; whether the
-    /// pattern may refuse the value is `may_refuse`.
+    /// Binds the names of a pattern that takes a value of this type. `subject` is where the value comes from;
+    /// whether the pattern may refuse the value is `may_refuse`.
     pub(super) fn pattern(&mut self, pattern: &'p Pattern, ty: Ty, subject: Span, may_refuse: bool) {
         self.note(pattern.span, ty);
         match &pattern.kind {

@@ -53,10 +53,10 @@ impl<'p> Infer<'p> {
 
     /// The type of a field; an error where there is none.
     fn demand_field(&mut self, record: &'p Expr, ty: Ty, name: &'p Name, access: Access) -> Ty {
-        if let Node::Record(fields) = self.types.store.get(ty) {
-            if let Some((_, ty)) = fields.iter().find(|field| field.0 == name.text) {
-                return *ty;
-            }
+        if let Node::Record(fields) = self.types.store.get(ty)
+            && let Some((_, ty)) = fields.iter().find(|field| field.0 == name.text)
+        {
+            return *ty;
         }
         let result = self.fresh();
         let demand = Demand::Field { record: ty, name: name.text.clone(), result, access };

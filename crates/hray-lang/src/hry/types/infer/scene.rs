@@ -39,16 +39,15 @@ impl<'p> Infer<'p> {
         let mut body = &definition.body;
         if let (true, ExprKind::Lambda { parameters, body: inner }) =
             (definition.parameters.is_empty(), &body.kind)
+            && let [parameter] = parameters.as_slice()
         {
-            if let [parameter] = parameters.as_slice() {
-                self.pattern(parameter, Ty::NUMBER, parameter.span, false);
-                let to = self.fresh();
-                let function = self.types.store.function(Ty::NUMBER, to);
-                let why = annotation.map_or(Why::Recursion(definition.target.span), Why::Annotation);
-                expected = self.settle(body, function, Some((expected, why)));
-                expected = self.function_parts(expected).map_or(to, |(_, to)| to);
-                body = inner;
-            }
+            self.pattern(parameter, Ty::NUMBER, parameter.span, false);
+            let to = self.fresh();
+            let function = self.types.store.function(Ty::NUMBER, to);
+            let why = annotation.map_or(Why::Recursion(definition.target.span), Why::Annotation);
+            expected = self.settle(body, function, Some((expected, why)));
+            expected = self.function_parts(expected).map_or(to, |(_, to)| to);
+            body = inner;
         }
         let found = self.scene_body(body, scene);
         let why = annotation.map_or(Why::Recursion(definition.target.span), Why::Annotation);

@@ -179,14 +179,27 @@ impl Infer<'_> {
         let others = self.waiting_fields.get(&variable).cloned().unwrap_or_default();
         for other in others {
             let demand = self.constraints.get(other).map(|constraint| constraint.demand.clone());
-            if let Some(Demand::Field { name: known, result: first, .. }) = demand {
-                if known == *name && self.solved.get(other) == Some(&false) {
-                    self.types.store.unify(result, first)?;
-                    return Ok(true);
-                }
+            if let Some(Demand::Field { name: known, result: first, .. }) = demand
+                && known == *name
+                && self.solved.get(other) == Some(&false)
+            {
+                self.types.store.unify(result, first)?;
+                return Ok(true);
             }
         }
         Ok(false)
+    }
+
+    /// The fields that are demanded of something that is not known yet.
+    pub(in crate::hry::types) fn demanded_fields(&self, ty: Ty) -> Vec<Arc<str>> {
+        let variable = self.types.store.find(ty);
+        let waiting = self.waiting_fields.get(&variable).into_iter().flatten();
+        let demands = waiting.filter_map(|id| self.constraints.get(*id));
+        let names = demands.filter_map(|constraint| match &constraint.demand {
+            Demand::Field { name, .. } => Some(name.clone()),
+            _ => None,
+        });
+        names.collect()
     }
 
     /// A record that a constructor takes.

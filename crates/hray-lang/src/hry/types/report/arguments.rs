@@ -7,7 +7,8 @@ use crate::diagnostic::{Diagnostic, Span, Suggestion};
 use crate::hry::ast::{Expr, ExprKind, UnaryOperator};
 
 impl<'p> Infer<'p> {
-    /// Something is given an argument that takes none, or no more. `index` counts the arguments that went well.
+    /// Something is given an argument that takes none, or no more. `index` counts the arguments that went
+    /// well.
     pub(in crate::hry::types) fn not_a_function(
         &self,
         callee: &'p Expr,
@@ -123,11 +124,18 @@ impl<'p> Infer<'p> {
     }
 
     /// Adds to a complaint that the arguments fit in another order.
-    pub(in crate::hry::types) fn suggest_order(&mut self, complaint: usize, callee: &Expr, arguments: &[&'p Expr]) {
+    pub(in crate::hry::types) fn suggest_order(
+        &mut self,
+        complaint: usize,
+        callee: &Expr,
+        arguments: &[&'p Expr],
+    ) {
         let piped = arguments.iter().any(|argument| argument.span.end <= callee.span.start);
         let words: Option<Vec<&str>> = arguments.iter().map(|argument| self.quoted(argument.span)).collect();
         let swapped = match (arguments, words.as_deref()) {
-            ([first, second], Some([a, b])) if !piped => Some((first.span.to(second.span), format!("{b} {a}"))),
+            ([first, second], Some([a, b])) if !piped => {
+                Some((first.span.to(second.span), format!("{b} {a}")))
+            }
             _ => None,
         };
         let Some(error) = self.diagnostics.get_mut(complaint) else { return };
@@ -142,7 +150,12 @@ impl<'p> Infer<'p> {
     }
 
     /// Adds to a complaint about `g` in `f g x` that `f (g x)` was probably meant.
-    pub(in crate::hry::types) fn suggest_parentheses(&mut self, complaint: usize, arguments: &[&'p Expr], index: usize) {
+    pub(in crate::hry::types) fn suggest_parentheses(
+        &mut self,
+        complaint: usize,
+        arguments: &[&'p Expr],
+        index: usize,
+    ) {
         let rest = arguments.get(index..).unwrap_or_default();
         let (Some(first), Some(last)) = (rest.first(), rest.last()) else { return };
         let span = first.span.to(last.span);

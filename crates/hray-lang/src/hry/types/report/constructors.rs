@@ -1,7 +1,8 @@
 //! Constructors that are not given what they take.
 
-use super::super::infer::{Allowed, Infer};
+use super::super::infer::{Allowed, Infer, field_of};
 use super::super::kind::{Head, Kind};
+use super::super::scheme::Access;
 use super::super::store::{Node, Ty};
 use super::super::unknown::{field_synonym, near};
 use super::hints::field_for;
@@ -26,7 +27,8 @@ impl<'p> Infer<'p> {
         let article = if owner == "scene" { "a scene" } else { "" };
         let whose = if article.is_empty() { format!("`{owner}`") } else { article.to_owned() };
         let label = if is_name { "no such field" } else { "the record given here has one" };
-        let mut error = Diagnostic::error("unknown-field", format!("{whose} has no field `{name}`"), span, label);
+        let mut error =
+            Diagnostic::error("unknown-field", format!("{whose} has no field `{name}`"), span, label);
         if let Some(via) = via.filter(|via| via.start < STANDARD_BASE) {
             error = error.with_secondary(via, format!("the record goes to `{owner}` here"));
         }
@@ -71,7 +73,8 @@ impl<'p> Infer<'p> {
             [one] => format!("`{owner}` needs the field `{one}`, which is not given"),
             several => format!("`{owner}` needs the fields {}, which are not given", listed(several)),
         };
-        let mut error = Diagnostic::error("missing-field", message, span, format!("without `{}`", first.name));
+        let mut error =
+            Diagnostic::error("missing-field", message, span, format!("without `{}`", first.name));
         if let Some(via) = via.filter(|via| via.start < STANDARD_BASE) {
             error = error.with_secondary(via, format!("the record goes to `{owner}` here"));
         }
@@ -93,8 +96,13 @@ impl<'p> Infer<'p> {
         let name = constructor.name;
         let message = format!("`{name}` takes a record with named fields, but this is {}", self.words(ty));
         let span = arguments.first().map_or(expr.span, |argument| argument.span);
-        let error = Diagnostic::error("constructor-without-braces", message, span, format!("found `{}`", self.show(ty)))
-            .with_secondary(callee.span, "its fields are given by name, in braces");
+        let error = Diagnostic::error(
+            "constructor-without-braces",
+            message,
+            span,
+            format!("found `{}`", self.show(ty)),
+        )
+        .with_secondary(callee.span, "its fields are given by name, in braces");
         let piped = span.end <= callee.span.start;
         if let (Some(fields), false) = (self.guessed_fields(constructor, arguments), piped) {
             let last = arguments.last().map_or(span, |argument| argument.span);
@@ -145,8 +153,13 @@ impl<'p> Infer<'p> {
         name: Option<Span>,
         via: Option<Span>,
     ) -> Diagnostic {
-        let message =
-            format!("`{}` of `{}` takes {}, but this is {}", field.name, constructor.name, field_words(field), self.words(ty));
+        let message = format!(
+            "`{}` of `{}` takes {}, but this is {}",
+            field.name,
+            constructor.name,
+            field_words(field),
+            self.words(ty)
+        );
         let written = Allowed::written(field);
         let label = format!("expected `{written}`, found `{}`", self.show(ty));
         let mut error = Diagnostic::error("wrong-field", message, span, label);
@@ -168,16 +181,19 @@ impl<'p> Infer<'p> {
         field: &'static FieldSpec,
     ) -> Diagnostic {
         let allowed = Allowed::of(field);
-        let plain = allowed.heads.heads().find(|head| *head != Head::Number).or_else(|| allowed.heads.heads().next());
+        let plain =
+            allowed.heads.heads().find(|head| *head != Head::Number).or_else(|| allowed.heads.heads().next());
         if let Node::Function(given, _) = self.types.store.get(ty) {
             let store = &self.types.store;
             let Some(taken) = allowed.from else {
                 let takes_hit = store.head(*given) == Some(Head::Hit);
                 if takes_hit && matches!(field.kind, FieldType::Number | FieldType::Color | FieldType::Vec3) {
-                    let help = "this field has one value for the whole surface; it cannot vary from hit to hit";
+                    let help =
+                        "this field has one value for the whole surface; it cannot vary from hit to hit";
                     return error.with_help(help);
                 }
-                return plain.map_or(error.clone(), |head| self.hint(error, expr, span, ty, Ty::alone(head), None));
+                return plain
+                    .map_or(error.clone(), |head| self.hint(error, expr, span, ty, Ty::alone(head), None));
             };
             if !store.heads(*given).has(store.head(taken).unwrap_or(Head::Hit)) {
                 return match self.other_or_missing(expr, ty, taken) {
@@ -212,12 +228,28 @@ impl<'p> Infer<'p> {
         let which = if names.len() == before { format!(" ({})", names.join(", ")) } else { String::new() };
         let more = if arguments.is_empty() { "" } else { "still " };
         let count = super::super::infer::counted(before, "argument");
-        Some(format!("`{name}` {more}needs {count}{which} before the {}", if taken == Ty::HIT { "hit" } else { "direction" }))
+        Some(format!(
+            "`{name}` {more}needs {count}{which} before the {}",
+            if taken == Ty::HIT { "hit" } else { "direction" }
+        ))
     }
 
     fn function_hint(&self, error: Diagnostic, span: Span, ty: Ty, taken: Ty) -> Diagnostic {
+        let first = self.types.store.parameters(ty).0.first().copied();
+        let demanded = first.map(|first| self.demanded_fields(first)).unwrap_or_default();
+        let foreign = demanded.iter().find(|name| field_of(Head::Hit, name, Access::Read).is_none());
+        let only_records = first.is_some_and(|first| {
+            !self.types.store.heads(first).has(Head::Vec2) && !self.types.store.heads(first).has(Head::Vec3)
+        });
+        if let (Some(foreign), Ty::HIT, true) = (foreign, taken, only_records) {
+            let help = format!(
+                "the function reads the field `{foreign}`, but a hit has `p`, `world`, `normal`, `uv` and `time`"
+            );
+            return error.with_help(help);
+        }
         let heads = self.types.store.parameters(ty).0.first().map(|first| self.types.store.heads(*first));
-        let likely = [Head::Vec3, Head::Vec2].into_iter().find(|head| heads.is_some_and(|heads| heads.has(*head)));
+        let likely =
+            [Head::Vec3, Head::Vec2].into_iter().find(|head| heads.is_some_and(|heads| heads.has(*head)));
         match (likely.or_else(|| heads.and_then(Kind::only)), taken) {
             (Some(Head::Vec3), Ty::HIT) => self.place_of_hit(error, span, "h.p", "the function takes a place; to give it the place of the hit:"),
             (Some(Head::Vec2), Ty::HIT) => {
@@ -242,8 +274,12 @@ impl<'p> Infer<'p> {
 
     /// A `scene` that is no scene.
     pub(in crate::hry::types) fn wrong_scene(&self, body: &'p Expr, ty: Ty) -> Diagnostic {
-        let message = format!("`scene` is a record, or a function from the time in seconds to one, but this is {}", self.words(ty));
-        let error = Diagnostic::error("wrong-scene", message, body.span, format!("found `{}`", self.show(ty)));
+        let message = format!(
+            "`scene` is a record, or a function from the time in seconds to one, but this is {}",
+            self.words(ty)
+        );
+        let error =
+            Diagnostic::error("wrong-scene", message, body.span, format!("found `{}`", self.show(ty)));
         match (self.types.store.get(ty), self.quoted(body.span)) {
             (Node::Alone(Head::Shape), Some(text)) => {
                 error.with_suggestion(body.span, format!("{{ objects = [{text}] }}"), "shapes are the objects of a scene:")
@@ -263,7 +299,8 @@ fn meant_field(constructor: &'static Constructor, name: &str) -> Option<&'static
 
 /// Another constructor, of the same kind of thing, that has such a field.
 fn elsewhere(constructor: &Constructor, name: &str) -> Option<&'static str> {
-    let others = CONSTRUCTORS.iter().filter(|other| other.name != constructor.name && other.field(name).is_some());
+    let others =
+        CONSTRUCTORS.iter().filter(|other| other.name != constructor.name && other.field(name).is_some());
     let mut others: Vec<&Constructor> = others.collect();
     others.sort_by_key(|other| other.makes != constructor.makes);
     others.first().map(|other| other.name)

@@ -26,10 +26,10 @@ impl Infer<'_> {
             }
         };
         self.report(error);
-        if let Demand::Arithmetic { result, .. } | Demand::Field { result, .. } = constraint.demand {
-            if self.types.store.is_variable(result) {
-                let _ = self.types.store.unify(result, Ty::ERROR);
-            }
+        if let Demand::Arithmetic { result, .. } | Demand::Field { result, .. } = constraint.demand
+            && self.types.store.is_variable(result)
+        {
+            let _ = self.types.store.unify(result, Ty::ERROR);
         }
     }
 
@@ -46,8 +46,13 @@ impl Infer<'_> {
         });
         let (l, r) = (self.words(left), self.words(right));
         let message = match (wrong, failure) {
-            (Some(wrong), _) => format!("`{word}` calculates with numbers, vectors and colours, but is given {} here", self.words(wrong)),
-            (None, Failure::Operands) => format!("`{word}` does not go with {l} and {r}, which it is given here"),
+            (Some(wrong), _) => format!(
+                "`{word}` calculates with numbers, vectors and colours, but is given {} here",
+                self.words(wrong)
+            ),
+            (None, Failure::Operands) => {
+                format!("`{word}` does not go with {l} and {r}, which it is given here")
+            }
             _ => format!("`{word}` of {l} and {r} is not {}, as it would have to be", self.words(result)),
         };
         let label = format!("`{}` {word} `{}`", self.show(left), self.show(right));
@@ -72,12 +77,25 @@ impl Infer<'_> {
     fn late_record(&self, record: Ty, constructor: &'static Constructor, origin: Origin) -> Diagnostic {
         let name = constructor.name;
         if name == "scene" {
-            let message = format!("`scene` is a record, or a function from the time in seconds to one, but this is {}", self.words(record));
-            return Diagnostic::error("wrong-scene", message, origin.span, format!("found `{}`", self.show(record)));
+            let message = format!(
+                "`scene` is a record, or a function from the time in seconds to one, but this is {}",
+                self.words(record)
+            );
+            return Diagnostic::error(
+                "wrong-scene",
+                message,
+                origin.span,
+                format!("found `{}`", self.show(record)),
+            );
         }
-        let message = format!("`{name}` takes a record with named fields, but is given {} here", self.words(record));
-        let error =
-            Diagnostic::error("constructor-without-braces", message, origin.span, format!("found `{}`", self.show(record)));
+        let message =
+            format!("`{name}` takes a record with named fields, but is given {} here", self.words(record));
+        let error = Diagnostic::error(
+            "constructor-without-braces",
+            message,
+            origin.span,
+            format!("found `{}`", self.show(record)),
+        );
         let error = match origin.inside() {
             Some(via) => error.with_secondary(via, format!("goes to `{name}` here")),
             None => error,
@@ -98,6 +116,8 @@ impl Infer<'_> {
             _ => "this does not work for every type that the annotation allows".into(),
         };
         let error = Diagnostic::error("not-general", message, origin.span, "does not always work");
-        self.report(error.with_help("give both the same name in the annotation, or make one of them a `Number`"));
+        self.report(
+            error.with_help("give both the same name in the annotation, or make one of them a `Number`"),
+        );
     }
 }

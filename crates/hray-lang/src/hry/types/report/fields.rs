@@ -4,9 +4,9 @@ use super::super::infer::{Infer, Origin, field_of};
 use super::super::kind::Head;
 use super::super::scheme::Access;
 use super::super::store::{Node, Ty};
+use super::super::unknown::near;
 use crate::diagnostic::Diagnostic;
 use crate::hry::ast::Expr;
-use super::super::unknown::near;
 use crate::hry::program::listed;
 
 impl<'p> Infer<'p> {
@@ -32,7 +32,8 @@ impl<'p> Infer<'p> {
             (_, Node::Record(_)) => format!("this record has no field `{name}`"),
             _ => format!("{is} has no field `{name}`"),
         };
-        let label = if origin.via.is_some() { "is given something without the field" } else { "no such field" };
+        let label =
+            if origin.via.is_some() { "is given something without the field" } else { "no such field" };
         let mut error = Diagnostic::error("unknown-field", message, origin.detail, label);
         match record {
             Some(record) => error = error.with_secondary(record.span, format!("`{}`", self.show(ty))),
@@ -47,7 +48,14 @@ impl<'p> Infer<'p> {
         self.field_hint(error, ty, name, access, origin)
     }
 
-    fn field_hint(&self, error: Diagnostic, ty: Ty, name: &str, access: Access, origin: Origin) -> Diagnostic {
+    fn field_hint(
+        &self,
+        error: Diagnostic,
+        ty: Ty,
+        name: &str,
+        access: Access,
+        origin: Origin,
+    ) -> Diagnostic {
         let names: Vec<String> = match self.types.store.get(ty) {
             Node::Record(fields) => fields.iter().map(|field| field.0.to_string()).collect(),
             Node::Alone(Head::Hit) => ["p", "world", "normal", "uv", "time"].map(String::from).to_vec(),
@@ -70,7 +78,9 @@ impl<'p> Infer<'p> {
                 });
             }
             Node::Function(..) => {
-                return error.with_help("the function still needs its arguments; the field of its result is `(f x).field`");
+                return error.with_help(
+                    "the function still needs its arguments; the field of its result is `(f x).field`",
+                );
             }
             _ => return error,
         };
@@ -101,15 +111,21 @@ fn hit_synonym(name: &str) -> Option<&'static str> {
 
 fn vector_hint(error: Diagnostic, head: Head, name: &str, access: Access) -> Diagnostic {
     if access == Access::Whole {
-        return error.with_help("take a vector apart by a vector pattern, `(x, y, z)`, and write a new one: `(v.x, 0, v.z)`");
+        return error.with_help(
+            "take a vector apart by a vector pattern, `(x, y, z)`, and write a new one: `(v.x, 0, v.z)`",
+        );
     }
     let all = if head == Head::Vec2 { "`.x` and `.y`" } else { "`.x`, `.y` and `.z`" };
     let help = match name {
         "length" | "len" | "norm" | "magnitude" => "the length of a vector v is `length v`".to_owned(),
-        "normal" | "normalize" | "normalized" | "unit" => "a vector v made length 1 is `normalize v`".to_owned(),
+        "normal" | "normalize" | "normalized" | "unit" => {
+            "a vector v made length 1 is `normalize v`".to_owned()
+        }
         "r" | "g" | "b" => format!("a vector has {all}; the components of colours are `.r`, `.g` and `.b`"),
         "p" => "this is a vector already; only a hit has the field `p`".to_owned(),
-        _ if name.len() > 3 && name.chars().all(|c| "xyz".contains(c)) => format!("vectors have two or three components: {all}"),
+        _ if name.len() > 3 && name.chars().all(|c| "xyz".contains(c)) => {
+            format!("vectors have two or three components: {all}")
+        }
         _ if field_of(Head::Vec3, name, access).is_some() => format!("a vector of two has {all} only"),
         _ => format!("a vector has {all}, and several at once as in `.xy`"),
     };

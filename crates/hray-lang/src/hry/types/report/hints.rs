@@ -23,35 +23,43 @@ impl<'p> Infer<'p> {
     ) -> Diagnostic {
         let store = &self.types.store;
         let expected_head = store.head(expected);
-        if let (Some(expr), Node::Function(from, to)) = (expr, store.get(found)) {
-            if expected_head != Some(Head::Function) {
-                return self.missing_arguments(error, expr, found, (*from, *to), expected, why);
-            }
+        if let (Some(expr), Node::Function(from, to)) = (expr, store.get(found))
+            && expected_head != Some(Head::Function)
+        {
+            return self.missing_arguments(error, expr, found, (*from, *to), expected, why);
         }
-        if let (Node::Function(given, _), Node::Function(taken, _)) = (store.get(found), store.get(expected)) {
+        if let (Node::Function(given, _), Node::Function(taken, _)) = (store.get(found), store.get(expected))
+        {
             return self.other_parameter(error, span, (*given, *taken), found, expected);
         }
-        if let (Node::List(of), Some(found)) = (store.get(expected), store.head(found)) {
-            if store.head(*of) == Some(found) {
-                return self.suggest(error, span, |text| format!("[{text}]"), "a list of one is written in brackets:");
-            }
+        if let (Node::List(of), Some(found)) = (store.get(expected), store.head(found))
+            && store.head(*of) == Some(found)
+        {
+            return self.suggest(
+                error,
+                span,
+                |text| format!("[{text}]"),
+                "a list of one is written in brackets:",
+            );
         }
-        if let (Node::List(of), Some(expected)) = (store.get(found), expected_head) {
-            if store.head(*of) == Some(expected) {
-                return self.list_for_one(error, expected, why);
-            }
+        if let (Node::List(of), Some(expected)) = (store.get(found), expected_head)
+            && store.head(*of) == Some(expected)
+        {
+            return self.list_for_one(error, expected, why);
         }
         if let (Some(why), Node::Rigid { .. }) = (why, store.get(expected)) {
             return self.rigid_hint(error, found, expected, why);
         }
         if let Node::Rigid { name, .. } = store.get(found) {
-            let help = format!("the annotation promises to take any type `{name}`; say there which type it really is");
+            let help = format!(
+                "the annotation promises to take any type `{name}`; say there which type it really is"
+            );
             return error.with_help(help);
         }
-        if let (Some(Head::Number), Some(kind)) = (store.head(found), store.kind(expected)) {
-            if kind == Kind::PLACEABLE {
-                return error.with_help("what is moved, turned or scaled comes last: `shape |> scale 2`");
-            }
+        if let (Some(Head::Number), Some(kind)) = (store.head(found), store.kind(expected))
+            && kind == Kind::PLACEABLE
+        {
+            return error.with_help("what is moved, turned or scaled comes last: `shape |> scale 2`");
         }
         match (store.head(found), expected_head) {
             (Some(found), Some(expected)) => self.hint_of_heads(error, expr, span, found, expected, why),
@@ -59,7 +67,13 @@ impl<'p> Infer<'p> {
         }
     }
 
-    fn suggest(&self, error: Diagnostic, span: Span, with: impl Fn(&str) -> String, text: &str) -> Diagnostic {
+    fn suggest(
+        &self,
+        error: Diagnostic,
+        span: Span,
+        with: impl Fn(&str) -> String,
+        text: &str,
+    ) -> Diagnostic {
         match self.quoted(span) {
             Some(quoted) => {
                 let replacement = with(quoted);
@@ -72,13 +86,13 @@ impl<'p> Infer<'p> {
     /// Something is given where an annotation says that it may be anything.
     fn rigid_hint(&self, error: Diagnostic, found: Ty, expected: Ty, why: Why<'p>) -> Diagnostic {
         let name = self.show(expected);
-        if let Why::Argument { callee, .. } = why {
-            if self.is_recursive(callee) {
-                let function = self.quoted(callee.span).unwrap_or("it");
-                return error.with_help(format!(
+        if let Why::Argument { callee, .. } = why
+            && self.is_recursive(callee)
+        {
+            let function = self.quoted(callee.span).unwrap_or("it");
+            return error.with_help(format!(
                     "inside its own definition `{function}` has one type, and cannot be used for another than `{name}`"
                 ));
-            }
         }
         let found = self.show(found);
         error.with_help(format!(
@@ -92,7 +106,9 @@ impl<'p> Infer<'p> {
             Some(Meaning::Global(Global::Definition { module, index })) => {
                 self.types.definitions.get(*module).and_then(|m| m.get(*index))
             }
-            Some(Meaning::Local(local)) if self.names.locals.get(*local).is_some_and(|local| local.is_let) => {
+            Some(Meaning::Local(local))
+                if self.names.locals.get(*local).is_some_and(|local| local.is_let) =>
+            {
                 self.locals.get(*local).and_then(Option::as_ref)
             }
             _ => None,
@@ -100,7 +116,13 @@ impl<'p> Infer<'p> {
         matches!(binding, Some(Binding::Mono(_)))
     }
 
-    fn grey(&self, error: Diagnostic, expr: Option<&'p Expr>, span: Span, why: Option<Why<'p>>) -> Diagnostic {
+    fn grey(
+        &self,
+        error: Diagnostic,
+        expr: Option<&'p Expr>,
+        span: Span,
+        why: Option<Why<'p>>,
+    ) -> Diagnostic {
         let is_plain = expr.is_some_and(|expr| matches!(expr.kind, ExprKind::Number(_) | ExprKind::Name(_)));
         if is_plain {
             let text = "a grey of that strength, from red, green and blue:";
@@ -109,9 +131,20 @@ impl<'p> Infer<'p> {
         error.with_help("a grey of strength n is `rgb n n n`, or `white * n`")
     }
 
-    fn shown(&self, error: Diagnostic, expr: Option<&'p Expr>, span: Span, why: Option<Why<'p>>) -> Diagnostic {
+    fn shown(
+        &self,
+        error: Diagnostic,
+        expr: Option<&'p Expr>,
+        span: Span,
+        why: Option<Why<'p>>,
+    ) -> Diagnostic {
         let with = |text: &str| expr.map_or_else(|| format!("({text})"), |expr| self.as_argument(expr, text));
-        self.suggest(error, span, |n| in_place(format!("show {}", with(n)), why), "`show` turns a number into text:")
+        self.suggest(
+            error,
+            span,
+            |n| in_place(format!("show {}", with(n)), why),
+            "`show` turns a number into text:",
+        )
     }
 
     fn list_for_one(&self, error: Diagnostic, expected: Head, why: Option<Why<'p>>) -> Diagnostic {
@@ -119,8 +152,12 @@ impl<'p> Infer<'p> {
             (Head::Shape, Some(Why::Field { .. } | Why::Item { .. })) => {
                 "a list inside a list: join them with `++`, as in `[a, b] ++ list`, or make the list one shape: `group list`"
             }
-            (Head::Shape, _) => "`group list` makes one shape of a list of them; to change each, write `[ f shape | shape <- list ]`",
-            (_, Some(Why::Field { .. } | Why::Item { .. })) => "a list inside a list: join them with `++`, as in `[a, b] ++ list`",
+            (Head::Shape, _) => {
+                "`group list` makes one shape of a list of them; to change each, write `[ f shape | shape <- list ]`"
+            }
+            (_, Some(Why::Field { .. } | Why::Item { .. })) => {
+                "a list inside a list: join them with `++`, as in `[a, b] ++ list`"
+            }
             (_, Some(Why::Bound)) => "the number of its elements is `count list`",
             _ => "`at 0 list` is the first element; to use each, write `[ f x | x <- list ]`",
         };
@@ -183,20 +220,32 @@ impl<'p> Infer<'p> {
     fn vector_for_number(&self, error: Diagnostic, found: Head, why: Option<Why<'p>>) -> Diagnostic {
         let components = if found == Head::Vec2 { "`.x` and `.y`" } else { "`.x`, `.y` and `.z`" };
         match why {
-            Some(Why::Order(..)) => error.with_help(format!("compare its components ({components}), or its `length`")),
-            _ => error.with_help(format!("it has the numbers {components}; `length v` is the length of a vector v")),
+            Some(Why::Order(..)) => {
+                error.with_help(format!("compare its components ({components}), or its `length`"))
+            }
+            _ => error.with_help(format!(
+                "it has the numbers {components}; `length v` is the length of a vector v"
+            )),
         }
     }
 
-    fn vector_for_color(&self, error: Diagnostic, expr: Option<&'p Expr>, span: Span, why: Option<Why<'p>>) -> Diagnostic {
+    fn vector_for_color(
+        &self,
+        error: Diagnostic,
+        expr: Option<&'p Expr>,
+        span: Span,
+        why: Option<Why<'p>>,
+    ) -> Diagnostic {
         let text = "a colour is made by `rgb` from red, green and blue:";
         if let Some(ExprKind::Vector(parts)) = expr.map(|expr| &expr.kind) {
-            let words: Option<Vec<String>> = parts.iter().map(|part| Some(self.as_argument(part, self.quoted(part.span)?))).collect();
+            let words: Option<Vec<String>> =
+                parts.iter().map(|part| Some(self.as_argument(part, self.quoted(part.span)?))).collect();
             if let Some(words) = words {
                 return error.with_suggestion(span, in_place(format!("rgb {}", words.join(" ")), why), text);
             }
         }
-        error.with_help("a colour is made by `rgb` from red, green and blue: `rgb v.x v.y v.z` for a vector v")
+        error
+            .with_help("a colour is made by `rgb` from red, green and blue: `rgb v.x v.y v.z` for a vector v")
     }
 
     /// An expression as it has to be written where an argument stands.
@@ -253,7 +302,10 @@ impl<'p> Infer<'p> {
     ) -> Diagnostic {
         let store = &self.types.store;
         if let (ExprKind::Lambda { .. }, Some(Why::Field { field, .. })) = (&expr.kind, why) {
-            return error.with_help(format!("`{}` has one value for all places: it cannot vary over a surface", field.name));
+            return error.with_help(format!(
+                "`{}` has one value for all places: it cannot vary over a surface",
+                field.name
+            ));
         }
         if let Some(constructor) = self.named_constructor(expr) {
             return self.bare_constructor(error, expr.span, constructor, why);
@@ -266,7 +318,10 @@ impl<'p> Infer<'p> {
         let (callee, arguments) = application(expr);
         let Some(name) = self.quoted(callee.span) else { return error };
         if fits && taken.len() == 1 && store.head(from) == Some(Head::Hit) {
-            let text = format!("`{name}` varies over a surface; where there is a hit `h`, its value is `{} h`", self.as_function(expr));
+            let text = format!(
+                "`{name}` varies over a surface; where there is a hit `h`, its value is `{} h`",
+                self.as_function(expr)
+            );
             return error.with_help(text);
         }
         if !fits && !store.is_variable(result) {
@@ -276,20 +331,31 @@ impl<'p> Infer<'p> {
             .filter_map(|index| self.parameter_name(callee, index))
             .map(|name| format!("`{name}`"))
             .collect();
-        let which = if names.len() == taken.len() { format!(": {}", names.join(", ")) } else { String::new() };
+        let which =
+            if names.len() == taken.len() { format!(": {}", names.join(", ")) } else { String::new() };
         let more = if arguments.is_empty() { "" } else { "still " };
         error.with_help(format!("`{name}` {more}needs {}{which}", counted(taken.len(), "argument")))
     }
 
     fn as_function(&self, expr: &Expr) -> String {
-        self.quoted(expr.span).map_or_else(|| "f".into(), |text| match expr.kind {
-            ExprKind::Name(_) | ExprKind::Apply { .. } => text.into(),
-            _ => format!("({text})"),
-        })
+        self.quoted(expr.span).map_or_else(
+            || "f".into(),
+            |text| match expr.kind {
+                ExprKind::Name(_) | ExprKind::Apply { .. } => text.into(),
+                _ => format!("({text})"),
+            },
+        )
     }
 
-    fn bare_constructor(&self, error: Diagnostic, span: Span, constructor: &'static Constructor, why: Option<Why<'p>>) -> Diagnostic {
-        let required: Vec<&str> = constructor.fields.iter().filter(|f| f.default.is_none()).map(|f| f.name).collect();
+    fn bare_constructor(
+        &self,
+        error: Diagnostic,
+        span: Span,
+        constructor: &'static Constructor,
+        why: Option<Why<'p>>,
+    ) -> Diagnostic {
+        let required: Vec<&str> =
+            constructor.fields.iter().filter(|f| f.default.is_none()).map(|f| f.name).collect();
         let name = constructor.name;
         if required.is_empty() {
             let text = format!("`{name}` takes a record; an empty one leaves all at their defaults:");
@@ -308,10 +374,19 @@ impl<'p> Infer<'p> {
     }
 
     /// A function that takes something else than is given to it.
-    fn other_parameter(&self, error: Diagnostic, span: Span, (given, taken): (Ty, Ty), found: Ty, expected: Ty) -> Diagnostic {
+    fn other_parameter(
+        &self,
+        error: Diagnostic,
+        span: Span,
+        (given, taken): (Ty, Ty),
+        found: Ty,
+        expected: Ty,
+    ) -> Diagnostic {
         let store = &self.types.store;
         let heads = store.heads(given);
-        let likely = [Head::Vec3, Head::Vec2].into_iter().find(|head| !heads.is_any() && !heads.has(Head::Hit) && heads.has(*head));
+        let likely = [Head::Vec3, Head::Vec2]
+            .into_iter()
+            .find(|head| !heads.is_any() && !heads.has(Head::Hit) && heads.has(*head));
         match (likely.or_else(|| store.head(given)), store.head(taken)) {
             (Some(Head::Vec3), Some(Head::Hit)) => self.suggest(
                 error,
@@ -331,9 +406,14 @@ impl<'p> Infer<'p> {
                 let help = match before {
                     Some(before) => {
                         let what = counted(before, "argument");
-                        format!("it takes {} first: give it {what} here, so that only the hit is left", first.words())
+                        format!(
+                            "it takes {} first: give it {what} here, so that only the hit is left",
+                            first.words()
+                        )
                     }
-                    None => format!("it takes {}, not a hit: `\\h -> f ...` can make one of a hit", first.words()),
+                    None => {
+                        format!("it takes {}, not a hit: `\\h -> f ...` can make one of a hit", first.words())
+                    }
                 };
                 error.with_help(help)
             }
@@ -352,7 +432,9 @@ impl<'p> Infer<'p> {
     /// The name of a parameter of a function, where it is known.
     pub(super) fn parameter_name(&self, callee: &Expr, index: usize) -> Option<String> {
         let ExprKind::Name(_) = callee.kind else { return None };
-        let Some(Meaning::Global(Global::Definition { module, index: definition })) = self.names.uses.get(&callee.span.start) else {
+        let Some(Meaning::Global(Global::Definition { module, index: definition })) =
+            self.names.uses.get(&callee.span.start)
+        else {
             return None;
         };
         let definition = self.modules.get(*module)?.syntax.definitions.get(*definition)?;
@@ -388,9 +470,15 @@ pub(super) fn constructors_of(head: Head) -> Vec<&'static Constructor> {
 }
 
 /// The first field of a constructor that takes such a value.
-pub(super) fn field_for(constructor: &'static Constructor, head: Head, used: &[&str]) -> Option<&'static str> {
+pub(super) fn field_for(
+    constructor: &'static Constructor,
+    head: Head,
+    used: &[&str],
+) -> Option<&'static str> {
     let takes = |kind: FieldType| match head {
-        Head::Number => matches!(kind, FieldType::Number) || (constructor.name == "ambient" && kind == FieldType::Color),
+        Head::Number => {
+            matches!(kind, FieldType::Number) || (constructor.name == "ambient" && kind == FieldType::Color)
+        }
         Head::Vec2 => kind == FieldType::Vec2,
         Head::Vec3 => kind == FieldType::Vec3,
         Head::Color => kind == FieldType::Color,
@@ -398,5 +486,9 @@ pub(super) fn field_for(constructor: &'static Constructor, head: Head, used: &[&
         _ => false,
     };
     // Directions and places: `center` rather than `normal` where both could be.
-    constructor.fields.iter().find(|field| takes(field.kind) && !used.contains(&field.name)).map(|field| field.name)
+    constructor
+        .fields
+        .iter()
+        .find(|field| takes(field.kind) && !used.contains(&field.name))
+        .map(|field| field.name)
 }

@@ -54,7 +54,12 @@ impl<'p> Infer<'p> {
         match clash {
             Clash::Infinite => {
                 let message = "the type of this would contain itself without end";
-                let error = Diagnostic::error("infinite-type", message, span, format!("found `{}`", self.show(found)));
+                let error = Diagnostic::error(
+                    "infinite-type",
+                    message,
+                    span,
+                    format!("found `{}`", self.show(found)),
+                );
                 Some(error.with_help(
                     "this happens where a function is given itself, or a list is put into itself: is an argument missing \
                      or one too many?",
@@ -62,13 +67,23 @@ impl<'p> Infer<'p> {
             }
             Clash::TooDeep => {
                 let message = "the type of this is nested too deeply";
-                Some(Diagnostic::error("type-too-large", message, span, "too many lists or functions inside each other"))
+                Some(Diagnostic::error(
+                    "type-too-large",
+                    message,
+                    span,
+                    "too many lists or functions inside each other",
+                ))
             }
             Clash::Escape(variable) => {
                 let name = self.show(variable);
-                let message = format!("the annotation says `{name}`, any type, but this has the type of something outside");
-                let error = Diagnostic::error("not-general", message, span, format!("found `{}`", self.show(found)));
-                Some(error.with_help("leave the annotation away, or give the outer value to the function as a parameter"))
+                let message = format!(
+                    "the annotation says `{name}`, any type, but this has the type of something outside"
+                );
+                let error =
+                    Diagnostic::error("not-general", message, span, format!("found `{}`", self.show(found)));
+                Some(error.with_help(
+                    "leave the annotation away, or give the outer value to the function as a parameter",
+                ))
             }
             Clash::Differ(..) | Clash::Kind(..) => None,
         }
@@ -108,55 +123,95 @@ impl<'p> Infer<'p> {
         let takes = self.words(expected);
         match why {
             Why::Argument { callee, index, whole } => self.told_argument((callee, index, whole), &takes, &is),
-            Why::Condition(word) => told("condition-not-bool", format!("the condition of an `if` is true or false, but this is {is}"))
-                .beside(word, "this decides between its branches"),
+            Why::Condition(word) => told(
+                "condition-not-bool",
+                format!("the condition of an `if` is true or false, but this is {is}"),
+            )
+            .beside(word, "this decides between its branches"),
             Why::Guard => told(
                 "condition-not-bool",
-                format!("what follows `,` in a comprehension is a condition or `x <- list`, but this is {is}"),
+                format!(
+                    "what follows `,` in a comprehension is a condition or `x <- list`, but this is {is}"
+                ),
             ),
             Why::Logic(word, operator) => {
-                told("wrong-operand", format!("`{operator}` takes conditions, but this is {is}")).beside(word, "takes true or false")
+                told("wrong-operand", format!("`{operator}` takes conditions, but this is {is}"))
+                    .beside(word, "takes true or false")
             }
             Why::Order(word, operator) => {
                 let operator = written_operator(operator);
-                told("wrong-operand", format!("`{operator}` compares numbers, but this is {is}")).beside(word, "compares two numbers")
+                told("wrong-operand", format!("`{operator}` compares numbers, but this is {is}"))
+                    .beside(word, "compares two numbers")
             }
-            Why::Exponent(word) => told("wrong-operand", format!("an exponent is a number, but this is {is}"))
-                .beside(word, "raises to the power of a number"),
-            Why::Component => told("wrong-component", format!("the components of a vector are numbers, but this is {is}")),
-            Why::Bound => told("wrong-bound", format!("a range goes from number to number, but this is {is}")),
-            Why::Generator(pattern) => told("not-a-list", format!("`<-` draws from a list, but this is {is}"))
-                .beside(pattern, "takes the elements, one by one"),
-            Why::Item { first } => told("mixed-list", format!("the elements of a list are of one type: this is {is}, but the first is {takes}"))
-                .beside(first, format!("the first element: `{}`", self.show(expected))),
-            Why::Branch { first } => told("branches-differ", format!("the branches of an `if` are of one type: this is {is}, but the first is {takes}"))
-                .beside(first, format!("the first branch: `{}`", self.show(expected))),
-            Why::Arm { first } => told("arms-differ", format!("the cases of a match are of one type: this is {is}, but the first is {takes}"))
-                .beside(first, format!("the first case: `{}`", self.show(expected))),
-            Why::Append { left } => told("wrong-operand", format!("`++` joins two of the same type: this is {is}, but the left side is {takes}"))
-                .beside(left, format!("the left side: `{}`", self.show(expected))),
-            Why::Annotation(span) => told("wrong-annotation", format!("the annotation says {takes}, but this is {is}"))
-                .beside(span, "the annotation"),
+            Why::Exponent(word) => {
+                told("wrong-operand", format!("an exponent is a number, but this is {is}"))
+                    .beside(word, "raises to the power of a number")
+            }
+            Why::Component => {
+                told("wrong-component", format!("the components of a vector are numbers, but this is {is}"))
+            }
+            Why::Bound => {
+                told("wrong-bound", format!("a range goes from number to number, but this is {is}"))
+            }
+            Why::Generator(pattern) => {
+                told("not-a-list", format!("`<-` draws from a list, but this is {is}"))
+                    .beside(pattern, "takes the elements, one by one")
+            }
+            Why::Item { first } => told(
+                "mixed-list",
+                format!("the elements of a list are of one type: this is {is}, but the first is {takes}"),
+            )
+            .beside(first, format!("the first element: `{}`", self.show(expected))),
+            Why::Branch { first } => told(
+                "branches-differ",
+                format!("the branches of an `if` are of one type: this is {is}, but the first is {takes}"),
+            )
+            .beside(first, format!("the first branch: `{}`", self.show(expected))),
+            Why::Arm { first } => told(
+                "arms-differ",
+                format!("the cases of a match are of one type: this is {is}, but the first is {takes}"),
+            )
+            .beside(first, format!("the first case: `{}`", self.show(expected))),
+            Why::Append { left } => told(
+                "wrong-operand",
+                format!("`++` joins two of the same type: this is {is}, but the left side is {takes}"),
+            )
+            .beside(left, format!("the left side: `{}`", self.show(expected))),
+            Why::Annotation(span) => {
+                told("wrong-annotation", format!("the annotation says {takes}, but this is {is}"))
+                    .beside(span, "the annotation")
+            }
             Why::Field { constructor, field, name } => {
                 let owner = constructor.name;
                 if self.is_part(expected, why) {
-                    let message = format!("`{}` of `{owner}` holds {}, but this is {is}", field.name, plural(field.name));
-                    return told("wrong-element", message).beside(name, format!("takes `{}`", Allowed::written(field)));
+                    let message = format!(
+                        "`{}` of `{owner}` holds {}, but this is {is}",
+                        field.name,
+                        plural(field.name)
+                    );
+                    return told("wrong-element", message)
+                        .beside(name, format!("takes `{}`", Allowed::written(field)));
                 }
                 let takes = field_words(field);
                 told("wrong-field", format!("`{}` of `{owner}` takes {takes}, but this is {is}", field.name))
                     .beside(name, format!("takes `{}`", Allowed::written(field)))
             }
-            Why::Update { name, record } => {
-                told("wrong-field", format!("`{}` is {takes} and has to stay one, but this is {is}", name.text))
-                    .beside(record, format!("has `{}`: `{}`", name.text, self.show(expected)))
+            Why::Update { name, record } => told(
+                "wrong-field",
+                format!("`{}` is {takes} and has to stay one, but this is {is}", name.text),
+            )
+            .beside(record, format!("has `{}`: `{}`", name.text, self.show(expected))),
+            Why::Pattern { subject } => {
+                told("wrong-pattern", format!("this pattern takes {is}, but the value is {takes}"))
+                    .beside(subject, format!("the value: `{}`", self.show(expected)))
             }
-            Why::Pattern { subject } => told("wrong-pattern", format!("this pattern takes {is}, but the value is {takes}"))
-                .beside(subject, format!("the value: `{}`", self.show(expected))),
             Why::Recursion(name) => {
                 let defined = self.text(name);
-                told("wrong-recursion", format!("`{defined}` is {is}, but where it uses itself it is taken for {takes}"))
-                    .beside(name, "a definition has one type inside itself")
+                told(
+                    "wrong-recursion",
+                    format!("`{defined}` is {is}, but where it uses itself it is taken for {takes}"),
+                )
+                .beside(name, "a definition has one type inside itself")
             }
         }
     }
@@ -178,10 +233,10 @@ impl<'p> Infer<'p> {
     /// Where two large types differ, in what.
     fn inner_difference(&self, found: Ty, expected: Ty, clash: Clash) -> Option<String> {
         let store = &self.types.store;
-        if let (Node::Record(a), Node::Record(b)) = (store.get(found), store.get(expected)) {
-            if let Some(note) = record_difference(a, b) {
-                return Some(note);
-            }
+        if let (Node::Record(a), Node::Record(b)) = (store.get(found), store.get(expected))
+            && let Some(note) = record_difference(a, b)
+        {
+            return Some(note);
         }
         match clash {
             Clash::Differ(a, b) => {
@@ -198,11 +253,16 @@ impl<'p> Infer<'p> {
     }
 }
 
-fn record_difference(found: &[(std::sync::Arc<str>, Ty)], expected: &[(std::sync::Arc<str>, Ty)]) -> Option<String> {
+fn record_difference(
+    found: &[(std::sync::Arc<str>, Ty)],
+    expected: &[(std::sync::Arc<str>, Ty)],
+) -> Option<String> {
     let missing = expected.iter().find(|(name, _)| found.iter().all(|(other, _)| other != name));
     let surplus = found.iter().find(|(name, _)| expected.iter().all(|(other, _)| other != name));
     match (missing, surplus) {
-        (Some((missing, _)), Some((surplus, _))) => Some(format!("it has no field `{missing}`, but a field `{surplus}`")),
+        (Some((missing, _)), Some((surplus, _))) => {
+            Some(format!("it has no field `{missing}`, but a field `{surplus}`"))
+        }
         (Some((missing, _)), None) => Some(format!("it has no field `{missing}`")),
         (None, Some((surplus, _))) => Some(format!("it has a field `{surplus}` more")),
         (None, None) => None,

@@ -27,26 +27,40 @@ impl<'p> Infer<'p> {
         }
         let (l, r) = (self.words(left.1), self.words(right.1));
         let message = format!("`{word}` does not go with {l} and {r}");
-        let error = Diagnostic::error("wrong-operand", message, span, "takes two of the same type, or one of them a number")
-            .with_secondary(left.0.span, format!("`{}`", self.show(left.1)))
-            .with_secondary(right.0.span, format!("`{}`", self.show(right.1)));
+        let error = Diagnostic::error(
+            "wrong-operand",
+            message,
+            span,
+            "takes two of the same type, or one of them a number",
+        )
+        .with_secondary(left.0.span, format!("`{}`", self.show(left.1)))
+        .with_secondary(right.0.span, format!("`{}`", self.show(right.1)));
         let heads = [self.types.store.head(left.1), self.types.store.head(right.1)];
         match heads {
-            [Some(Head::Vec2), Some(Head::Vec3)] | [Some(Head::Vec3), Some(Head::Vec2)] => {
-                error.with_help("`v.xy` is a vector of three without its third component; `(v.x, v.y, 0)` adds one")
-            }
-            [Some(Head::Color), Some(Head::Vec2 | Head::Vec3)] | [Some(Head::Vec2 | Head::Vec3), Some(Head::Color)] => {
-                error.with_help("`rgb v.x v.y v.z` makes a colour of a vector v, `(c.r, c.g, c.b)` a vector of a colour c")
-            }
+            [Some(Head::Vec2), Some(Head::Vec3)] | [Some(Head::Vec3), Some(Head::Vec2)] => error.with_help(
+                "`v.xy` is a vector of three without its third component; `(v.x, v.y, 0)` adds one",
+            ),
+            [Some(Head::Color), Some(Head::Vec2 | Head::Vec3)]
+            | [Some(Head::Vec2 | Head::Vec3), Some(Head::Color)] => error.with_help(
+                "`rgb v.x v.y v.z` makes a colour of a vector v, `(c.r, c.g, c.b)` a vector of a colour c",
+            ),
             _ => error,
         }
     }
 
     /// Arithmetic on something that is no number, vector or colour.
-    pub(in crate::hry::types) fn not_numeric(&self, word: &str, span: Span, expr: &'p Expr, ty: Ty) -> Diagnostic {
-        let message = format!("`{word}` calculates with numbers, vectors and colours, but this is {}", self.words(ty));
+    pub(in crate::hry::types) fn not_numeric(
+        &self,
+        word: &str,
+        span: Span,
+        expr: &'p Expr,
+        ty: Ty,
+    ) -> Diagnostic {
+        let message =
+            format!("`{word}` calculates with numbers, vectors and colours, but this is {}", self.words(ty));
         let label = format!("found `{}`", self.show(ty));
-        let error = Diagnostic::error("wrong-operand", message, expr.span, label).with_secondary(span, "calculates");
+        let error =
+            Diagnostic::error("wrong-operand", message, expr.span, label).with_secondary(span, "calculates");
         match self.types.store.get(ty) {
             Node::Rigid { name, .. } => error.with_help(format!(
                 "the annotation says `{name}`, which may be anything; `numeric` stands for numbers, vectors and colours"
@@ -99,9 +113,10 @@ impl<'p> Infer<'p> {
             [Some(Head::Text), Some(Head::Number)] | [Some(Head::Number), Some(Head::Text)] => {
                 error.with_help("numbers have no quotes; `show x` turns a number into text")
             }
-            [Some(Head::Vec2 | Head::Vec3), Some(Head::Number)] | [Some(Head::Number), Some(Head::Vec2 | Head::Vec3)] => {
-                error.with_help("compare a component (`v.x`), or the length (`length v`), of a vector v with a number")
-            }
+            [Some(Head::Vec2 | Head::Vec3), Some(Head::Number)]
+            | [Some(Head::Number), Some(Head::Vec2 | Head::Vec3)] => error.with_help(
+                "compare a component (`v.x`), or the length (`length v`), of a vector v with a number",
+            ),
             _ => error,
         }
     }
@@ -114,7 +129,8 @@ impl<'p> Infer<'p> {
         left: &Expr,
         ty: Ty,
     ) -> Diagnostic {
-        let message = format!("`{}` cannot compare {}", written_operator(operator), self.words_of_several(ty));
+        let message =
+            format!("`{}` cannot compare {}", written_operator(operator), self.words_of_several(ty));
         let label = "there is no telling whether two of them are the same";
         let error = Diagnostic::error("not-comparable", message, span, label)
             .with_secondary(left.span, format!("`{}`", self.show(ty)))
@@ -127,7 +143,13 @@ impl<'p> Infer<'p> {
     }
 
     /// `>>` beside something that is no function.
-    pub(in crate::hry::types) fn not_a_function_beside(&self, word: &str, span: Span, side: &'p Expr, ty: Ty) -> Diagnostic {
+    pub(in crate::hry::types) fn not_a_function_beside(
+        &self,
+        word: &str,
+        span: Span,
+        side: &'p Expr,
+        ty: Ty,
+    ) -> Diagnostic {
         let message = format!("`{word}` joins two functions, but this is {}", self.words(ty));
         Diagnostic::error("wrong-operand", message, side.span, format!("found `{}`", self.show(ty)))
             .with_secondary(span, "`f >> g` is the function that does first f, then g")
@@ -135,7 +157,12 @@ impl<'p> Infer<'p> {
     }
 
     /// `f >> g` where g does not take what f gives.
-    pub(in crate::hry::types) fn not_composed(&self, span: Span, left: Side<'p>, right: Side<'p>) -> Diagnostic {
+    pub(in crate::hry::types) fn not_composed(
+        &self,
+        span: Span,
+        left: Side<'p>,
+        right: Side<'p>,
+    ) -> Diagnostic {
         let message = format!(
             "the left function gives {}, but the right one takes {}",
             self.words(left.1),
@@ -149,10 +176,13 @@ impl<'p> Infer<'p> {
     /// `++` of something else than lists and texts.
     pub(in crate::hry::types) fn not_appendable(&self, span: Span, side: &'p Expr, ty: Ty) -> Diagnostic {
         let message = format!("`++` joins lists, or texts, but this is {}", self.words(ty));
-        let error = Diagnostic::error("wrong-operand", message, side.span, format!("found `{}`", self.show(ty)))
-            .with_secondary(span, "joins two lists, or two texts");
+        let error =
+            Diagnostic::error("wrong-operand", message, side.span, format!("found `{}`", self.show(ty)))
+                .with_secondary(span, "joins two lists, or two texts");
         match (self.types.store.head(ty), self.quoted(side.span)) {
-            (Some(Head::Number), _) => error.with_help("numbers are added by `+`; `show x` turns one into text"),
+            (Some(Head::Number), _) => {
+                error.with_help("numbers are added by `+`; `show x` turns one into text")
+            }
             (Some(Head::Function), _) => error,
             (_, Some(text)) => {
                 error.with_suggestion(side.span, format!("[{text}]"), "a list of one is written in brackets:")

@@ -42,11 +42,20 @@ impl Infer<'_> {
         expr: &Expr,
     ) {
         let values = constants(expr);
-        if let Range::Direction = field.range {
+        if let Range::Direction | Range::Normal = field.range {
             let is_zero = matches!(&expr.kind, ExprKind::Vector(parts) if parts.len() == values.len())
                 && values.iter().all(|(value, _)| *value == 0.0);
-            if is_zero {
-                self.out_of_range(constructor, field, expr.span, "a vector of length 0 has no direction");
+            match field.range {
+                _ if !is_zero => {}
+                Range::Normal => {
+                    let message =
+                        format!("`{}` of `{}` is a vector of length 0", field.name, constructor.name);
+                    let warning = Diagnostic::warning("plane-normal", message, expr.span, "surely not meant");
+                    self.report(warning.with_help("no ray hits such a plane; a floor has `normal = up`"));
+                }
+                _ => {
+                    self.out_of_range(constructor, field, expr.span, "a vector of length 0 has no direction")
+                }
             }
             return;
         }
@@ -85,7 +94,12 @@ enum Problem {
 fn problem(range: Range, value: f64) -> Option<Problem> {
     let error = |is_wrong: bool, text: String| is_wrong.then_some(Problem::Error(text));
     match range {
-        Range::Any | Range::Direction => None,
+        Range::Any | Range::Direction | Range::Normal => None,
+        Range::Radius => {
+            let help = "0 gives a point, which no ray hits; a negative radius turns the normals inward";
+            let text = format!("is not greater than 0: {value}");
+            (value <= 0.0).then_some(Problem::Warning("sphere-radius", text, help))
+        }
         Range::Positive | Range::Positives => error(value <= 0.0, format!("{value} is not greater than 0")),
         Range::NonNegative => error(value < 0.0, format!("{value} is below 0")),
         Range::Between(low, high) => error(

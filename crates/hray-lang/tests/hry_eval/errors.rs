@@ -1,0 +1,45 @@
+//! Errors that only the values show, as a newcomer sees them.
+
+use crate::common::{Files, errors, run_with, shown};
+use hray_lang::hry::eval::Limits;
+use insta::assert_snapshot;
+
+macro_rules! mistakes {
+    ($($name:ident: $text:expr;)+) => {$(
+        #[test]
+        fn $name() {
+            assert_snapshot!(stringify!($name), errors($text));
+        }
+    )+};
+}
+
+mistakes! {
+    needs_itself: "a = b + 1\nb = a * 2\nscene = { objects = [sphere { radius = a }] }";
+    size_worked_out_to_be_negative: "r = 1 - 3\nscene = { objects = [cube { size = r }] }";
+    radius_not_a_number: "scene = { objects = [sphere { radius = 0 / 0.0 + 1 }] }";
+    size_not_whole: "w = 640 / 7\nscene = { size = (w, 480) }";
+    angle_without_deg: "a = 60\nscene = { camera = perspective { from = (0, 0, 5), fov = a } }";
+    no_such_element: "scene = { objects = [sphere { radius = at 3 [1, 2, 3] }] }";
+    error_in_a_function: "pick i = at i [1, 2]\n\nring n = [sphere { radius = pick i } | i <- [0 .. n]]\n\nscene = { objects = ring 4 }";
+    camera_looks_at_itself: "scene = { camera = perspective { from = (0, 1, 0), to = (0, 1, 0) } }";
+    camera_looks_along_up: "scene = { camera = perspective { from = (0, 5, 0), to = (0, 0, 0) } }";
+    length_depends_on_hit: "f h = count [i | i <- [0 .. h.p.x]]\nscene = { objects = [sphere { material = classic { reflection = f } }] }";
+    text_depends_on_hit: "f h = if (if h.p.x > 0 then \"a\" else \"b\") == \"a\" then 1 else 0\nscene = { objects = [sphere { material = classic { reflection = f } }] }";
+    seed_not_whole: "scene = { objects = [sphere { radius = 2 + perlin 0.5 (1, 2, 3) }] }";
+    noise_of_1985_outside: "scene = { objects = [sphere { radius = 2 + perlin1985 0 (1, 2, 3) }] }";
+    flat: "scene = { objects = [sphere {} |> stretch (1, 0, 1)] }";
+    axis_of_zero: "scene = { objects = [sphere {} |> rotate (0, 0, 0) 30deg] }";
+    moved_window: "scene = { camera = translate (1, 0, 0) (window { eye = (0, 0, 9), size = (4, 3) }) }";
+    range_without_steps: "scene = { objects = [sphere { radius = sum [1, 1 .. 5] }] }";
+    slope_of_a_loop: "f h = iterate 9 (\\x -> x > h.p.y) (\\x -> x * 2) h.p.x\nscene = { objects = [sphere { material = classic { bump = f } }] }";
+    image_outside: "scene = { objects = [sphere { material = classic { color = imageMap (image \"../secret.png\") } }] }";
+    image_missing: "scene = { objects = [sphere { material = classic { color = imageMap (image \"moon.jpg\") } }] }";
+}
+
+#[test]
+fn warnings_about_values_do_not_stop_the_scene() {
+    let text = "share = 3 / 2\nscene = { objects = [sphere { material = classic { reflection = share } }] }";
+    let (program, evaluated) = run_with(text, &Files::default(), 0.0, &Limits::default());
+    assert!(evaluated.description.is_some());
+    assert_snapshot!("a_share_beyond_one", shown(&program, &evaluated.diagnostics));
+}

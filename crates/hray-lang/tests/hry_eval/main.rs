@@ -1,0 +1,12 @@
+//! Evaluation: what a scene's text comes to.
+
+#![allow(clippy::unwrap_used, clippy::panic, reason = "tests may fail loudly")]
+
+mod common;
+mod corpus;
+mod errors;
+mod library;
+mod limits;
+mod scenes;
+mod textures;
+mod values;

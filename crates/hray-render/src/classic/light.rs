@@ -1,0 +1,276 @@
+//! The direct light at every hit: `shadePt`, `diff` and `spec`, summed over the lights.
+
+use super::Integrator;
+use super::frame::{Columns, Frame};
+use super::material::{COLOR, FIELDS, GLOW, Material, Number};
+use super::shapes::Rays;
+use super::solid::Walk;
+use super::steps::{places, tilted, unit};
+use super::texture::color_at;
+use super::trace::shadowed;
+use crate::Control;
+use fearless_simd::prelude::*;
+use hray_core::{DVec3, Light, Rgb, Texture};
+use hray_expr::kernels::lanes::{Lanes, MAX_LANES, Vec3};
+use hray_expr::kernels::power::power;
+
+/// A highlight of coefficient 0 vanishes whatever its power, as long as that is finite; up to this exponent
+/// it is, because the cosine exceeds 1 by rounding only.
+const FINITE_POWER: f64 = (1u64 << 40) as f64;
+
+/// Hits, one per lane.
+#[derive(Clone, Copy)]
+struct Hits<S: Simd> {
+    /// Where shadow rays start.
+    point: Vec3<S>,
+    /// In the space of the textures.
+    object: Vec3<S>,
+    normal: Vec3<S>,
+    direction: Vec3<S>,
+    /// Their place in the columns.
+    place: usize,
+}
+
+/// What all hits of a group share.
+#[derive(Clone, Copy)]
+struct Group<'a> {
+    scene: &'a Integrator,
+    material: &'a Material,
+    fields: &'a [&'a [f64]; FIELDS],
+}
+
+/// The direct light at every hit. Returns how many shadow rays it took.
+#[inline(always)]
+pub(super) fn shade<S: Simd>(
+    simd: S,
+    scene: &Integrator,
+    frame: &mut Frame,
+    walk: &mut Walk,
+    control: &Control,
+) -> u64 {
+    let mut hits = 0;
+    let fields = &frame.fields.get();
+    for &group in &frame.groups {
+        let (leaf, material) = (group.leaf, scene.material(group.leaf));
+        let placed = scene.geometry.placement(leaf).is_some() && material.uses_noise();
+        let shared = Group { scene, material, fields };
+        hits += group.len as u64;
+        for i in places::<S>(group.start, group.len) {
+            let mut point = Vec3::load(simd, frame.hit_point.get(), i);
+            let mut normal = Vec3::load(simd, frame.hit_normal.get(), i);
+            let direction = Vec3::load(simd, frame.hit_direction.get(), i);
+            let object = if placed { Vec3::load(simd, frame.hit_object.get(), i) } else { point };
+            let geometric = normal;
+            if material.has_bumps {
+                normal = tilted(simd, &scene.geometry, fields, leaf, i, normal);
+            }
+            if scene.exact {
+                let side = Side::of(simd, &frame.hit_side, i, geometric, direction);
+                (point, normal) = (side.clear_of(point), normal.scale(side.outside));
+                side.store(&mut frame.hit_side, i);
+            }
+            if scene.exact || material.has_bumps {
+                normal.store(frame.hit_normal.get_mut(), i);
+            }
+            let hits = Hits { point, object, normal, direction, place: i };
+            let color = light(simd, &shared, &hits, walk, control);
+            color.store(frame.hit_color.get_mut(), i);
+        }
+    }
+    let lights = scene.lights.iter().filter(|light| !matches!(light, Light::Ambient { .. })).count();
+    hits * lights as u64
+}
+
+/// The viewer's side of a surface.
+struct Side<S: Simd> {
+    /// The geometric normal that faces the viewer.
+    normal: Vec3<S>,
+    /// How far along it a ray has to start.
+    clear: Lanes<S>,
+    /// 1 where the viewer is on the outside, else -1.
+    outside: Lanes<S>,
+}
+
+impl<S: Simd> Side<S> {
+    #[inline(always)]
+    fn of(simd: S, columns: &Columns<5>, i: usize, outward: Vec3<S>, direction: Vec3<S>) -> Self {
+        let one = Lanes::<S>::splat(simd, 1.0);
+        let outside = direction.dot(outward).simd_le(0.0).select(one, -one);
+        let clear = Lanes::<S>::from_slice(simd, &columns.get()[3][i..i + Lanes::<S>::LEN]);
+        Self { normal: outward.scale(outside), clear, outside }
+    }
+
+    #[inline(always)]
+    fn clear_of(&self, point: Vec3<S>) -> Vec3<S> {
+        point.add(self.normal.scale(self.clear))
+    }
+
+    #[inline(always)]
+    fn store(&self, columns: &mut Columns<5>, i: usize) {
+        let [x, y, z, _, outside] = columns.get_mut();
+        self.normal.store([x, y, z], i);
+        self.outside.store_slice(&mut outside[i..i + Lanes::<S>::LEN]);
+    }
+}
+
+/// The light that reaches hits of a leaf and leaves them against the rays. A render that is stopped gets the light
+/// of the lamps so far.
+#[inline(always)]
+fn light<S: Simd>(simd: S, group: &Group<'_>, hits: &Hits<S>, walk: &mut Walk, control: &Control) -> Vec3<S> {
+    let Group { scene, material, .. } = *group;
+    let mut sum = Vec3::splat(simd, DVec3::ZERO);
+    let mut color = None;
+    for source in &scene.lights {
+        if control.is_cancelled() {
+            break;
+        }
+        if let Light::Ambient { intensity } = *source {
+            let intensity = Vec3::splat(simd, intensity);
+            sum = sum.add(if scene.exact {
+                let color = *color.get_or_insert_with(
+                    #[inline(always)]
+                    || diffuse_color(simd, group, hits),
+                );
+                intensity.mul(color)
+            } else {
+                intensity
+            });
+            continue;
+        }
+        let Toward { to_light, distance, intensity } = toward(simd, source, scene.exact, hits.point);
+        let cosine = to_light.dot(hits.normal);
+        let away = cosine.simd_le(0.0);
+        if scene.exact && away.all_true() {
+            continue;
+        }
+        let mut dark = shadowed(simd, &scene.geometry, &Rays::new(hits.point, to_light), distance, walk);
+        if scene.exact {
+            dark |= away;
+        }
+        if dark.all_true() {
+            continue;
+        }
+        let color = match color {
+            Some(color) => color,
+            None => *color.insert(diffuse_color(simd, group, hits)),
+        };
+        let diffuse = intensity.scale(cosine).mul(color);
+        let lit = match highlight(simd, group, hits, to_light) {
+            Some(factor) => diffuse.add(intensity.scale(factor)),
+            None => diffuse,
+        };
+        sum = sum.add(lit.zero_where(simd, dark));
+    }
+    match material.glow() {
+        None => sum,
+        Some(glow) => sum.add(color_of(simd, group, hits, glow, GLOW)),
+    }
+}
+
+#[inline(always)]
+fn diffuse_color<S: Simd>(simd: S, group: &Group<'_>, hits: &Hits<S>) -> Vec3<S> {
+    color_of(simd, group, hits, group.material.texture(), COLOR)
+}
+
+/// The colours of a texture; those of a function are in the columns from `first`.
+#[inline(always)]
+fn color_of<S: Simd>(simd: S, group: &Group<'_>, hits: &Hits<S>, texture: &Texture, first: usize) -> Vec3<S> {
+    if let Texture::Function(_) = texture {
+        if !group.material.varies(first) {
+            return Vec3::splat(simd, DVec3::ZERO);
+        }
+        let columns = [group.fields[first], group.fields[first + 1], group.fields[first + 2]];
+        return Vec3::load(simd, columns, hits.place);
+    }
+    if let Texture::Solid(color) = *texture {
+        return Vec3::splat(simd, color);
+    }
+    noise_color(simd, group.scene, texture, hits.object)
+}
+
+/// One copy for each width of vectors: there is much of it.
+#[inline(never)]
+fn noise_color<S: Simd>(simd: S, scene: &Integrator, texture: &Texture, p: Vec3<S>) -> Vec3<S> {
+    simd.vectorize(
+        #[inline(always)]
+        || color_at(simd, &scene.noise, texture, p),
+    )
+}
+
+/// Where a light is, seen from points.
+struct Toward<S: Simd> {
+    to_light: Vec3<S>,
+    distance: Lanes<S>,
+    intensity: Vec3<S>,
+}
+
+#[inline(always)]
+fn toward<S: Simd>(simd: S, light: &Light, exact: bool, point: Vec3<S>) -> Toward<S> {
+    let from_point = |position: DVec3, intensity: Rgb| {
+        let way = Vec3::splat(simd, position).sub(point);
+        let (to_light, distance) =
+            if exact { (unit(simd, way), way.dot(way).sqrt()) } else { way.norm(simd) };
+        Toward { to_light, distance, intensity: Vec3::splat(simd, intensity) }
+    };
+    match *light {
+        Light::Point { position, intensity } => from_point(position, intensity),
+        Light::Ambient { intensity } => from_point(DVec3::ZERO, intensity),
+        Light::Directional { direction, intensity } => Toward {
+            to_light: Vec3::splat(simd, -direction),
+            distance: Lanes::<S>::splat(simd, f64::INFINITY),
+            intensity: Vec3::splat(simd, intensity),
+        },
+        Light::Spot { position, axis, cos_inner, cos_outer, intensity } => {
+            let mut seen = from_point(position, intensity);
+            let cosine = -seen.to_light.dot(Vec3::splat(simd, axis));
+            seen.intensity = seen.intensity.scale(inside_cone(simd, cosine, cos_inner, cos_outer));
+            seen
+        }
+    }
+}
+
+/// 1 in the inner cone, 0 outside the outer one, smooth between.
+#[inline(always)]
+fn inside_cone<S: Simd>(simd: S, cosine: Lanes<S>, inner: f64, outer: f64) -> Lanes<S> {
+    let (zero, one) = (Lanes::<S>::splat(simd, 0.0), Lanes::<S>::splat(simd, 1.0));
+    let t = (cosine - outer) / (inner - outer);
+    let between = t * t * (Lanes::<S>::splat(simd, 3.0) - t * 2.0);
+    let factor = cosine.simd_gt(outer).select(between, zero);
+    cosine.simd_ge(inner).select(one, factor)
+}
+
+/// The factor of the highlight (`spec` without the intensity), unless it is certain to vanish.
+#[inline(always)]
+fn highlight<S: Simd>(simd: S, group: &Group<'_>, hits: &Hits<S>, to_light: Vec3<S>) -> Option<Lanes<S>> {
+    let Group { scene, material, fields } = group;
+    if material.highlight.vanishes() {
+        let finite = |shine: f64| (0.0..=FINITE_POWER).contains(&shine);
+        if scene.exact || matches!(material.shine, Number::Constant(shine) if finite(shine)) {
+            return None;
+        }
+    }
+    let strength = material.highlight.load(simd, fields, hits.place);
+    let mut cosine = if scene.exact {
+        hits.normal.dot(unit(simd, to_light.sub(hits.direction)))
+    } else {
+        hits.normal.dot(to_light.sub(hits.direction).norm(simd).0)
+    };
+    if scene.exact {
+        let zero = Lanes::<S>::splat(simd, 0.0);
+        cosine = cosine.simd_gt(zero).select(cosine, zero);
+    }
+    Some(match material.shine {
+        Number::Constant(shine) if shine.fract() == 0.0 => power(simd, cosine, shine) * strength,
+        shine => powers(simd, cosine, shine.load(simd, fields, hits.place)) * strength,
+    })
+}
+
+/// Each lane to a power of its own.
+#[inline(always)]
+fn powers<S: Simd>(simd: S, base: Lanes<S>, exponent: Lanes<S>) -> Lanes<S> {
+    let mut result = [0.0; MAX_LANES];
+    for lane in 0..Lanes::<S>::LEN {
+        result[lane] = libm::pow(base[lane], exponent[lane]);
+    }
+    Lanes::<S>::from_slice(simd, &result[..Lanes::<S>::LEN])
+}

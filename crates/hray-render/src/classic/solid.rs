@@ -1,0 +1,202 @@
+//! Constructive solid geometry, one ray at a time.
+//!
+//! Every leaf of a solid is convex, so a ray is inside it over one interval of distances. The ends of all intervals
+//! are sorted; on the way along the ray each end changes one leaf, which is carried up the tree of operations as
+//! far as something changes. Where the root changes the ray meets the solid's surface. What is cut away is known
+//! for each leaf beforehand: a surface is turned inside out where an odd number of differences lie above its second
+//! operand.
+//!
+//! The tree is a list in which operands come before what is made of them; nothing here recurses.
+
+use super::geometry::Geometry;
+use super::shapes::{PARALLEL, Prepared};
+use hray_core::{CsgOperation, DVec3};
+
+/// One ray.
+#[derive(Clone, Copy)]
+pub(super) struct Ray {
+    pub(super) origin: DVec3,
+    pub(super) direction: DVec3,
+}
+
+/// A solid made of others.
+pub(super) struct Solid {
+    /// Its leaves follow one upon the other in the scene's; this is the first.
+    pub(super) first: u32,
+    /// The node of each leaf.
+    pub(super) leaves: Box<[u32]>,
+    /// Operands before what is made of them; the last is the whole.
+    pub(super) nodes: Box<[Node]>,
+}
+
+/// A leaf or an operation.
+#[derive(Clone, Copy)]
+pub(super) struct Node {
+    /// The operation and its operands, for what is no leaf.
+    pub(super) made: Option<(CsgOperation, [u32; 2])>,
+    /// The node that this is an operand of; of the whole, itself.
+    pub(super) parent: u32,
+}
+
+/// What one thread needs to walk along rays.
+#[derive(Default)]
+pub(super) struct Walk {
+    inside: Vec<bool>,
+    ends: Vec<End>,
+}
+
+/// Where a ray enters or leaves a leaf.
+#[derive(Clone, Copy)]
+struct End {
+    at: f64,
+    leaf: u32,
+    enters: bool,
+}
+
+impl Solid {
+    /// The nearest distance beyond `geometry.nearest` at which a ray meets the surface, and the leaf that it
+    /// belongs to there. Of several leaves in the same place, the one that is written last.
+    pub(super) fn hit(&self, geometry: &Geometry, ray: &Ray, walk: &mut Walk) -> Option<(f64, usize)> {
+        let Walk { inside, ends } = walk;
+        inside.clear();
+        inside.resize(self.nodes.len(), false);
+        ends.clear();
+        for (leaf, &node) in (0u32..).zip(&self.leaves) {
+            let index = self.first as usize + leaf as usize;
+            let [enter, exit] = geometry.interval(index, ray);
+            // Not where one is no number.
+            if enter < exit {
+                inside[node as usize] = enter <= geometry.nearest && geometry.nearest < exit;
+                let ahead = |at: f64| at > geometry.nearest && at < f64::INFINITY;
+                ends.extend(ahead(enter).then_some(End { at: enter, leaf, enters: true }));
+                ends.extend(ahead(exit).then_some(End { at: exit, leaf, enters: false }));
+            }
+        }
+        if ends.is_empty() {
+            return None;
+        }
+        for node in 0..self.nodes.len() {
+            if self.nodes[node].made.is_some() {
+                inside[node] = self.value(node, inside);
+            }
+        }
+        ends.sort_unstable_by(|a, b| a.at.total_cmp(&b.at).then(a.leaf.cmp(&b.leaf)));
+        let whole = self.nodes.len() - 1;
+        for together in ends.chunk_by(|a, b| a.at == b.at) {
+            let before = inside[whole];
+            for end in together {
+                self.change(end, inside);
+            }
+            let after = inside[whole];
+            if after != before {
+                // The surface of a leaf that is turned inside out is entered where the leaf is left.
+                let fits = |end: &&End| {
+                    let index = self.first as usize + end.leaf as usize;
+                    (end.enters != geometry.is_turned(index)) == after
+                };
+                let end = together.iter().rev().find(fits).or(together.last())?;
+                return Some((end.at, self.first as usize + end.leaf as usize));
+            }
+        }
+        None
+    }
+
+    /// Whether a node is inside, from its operands.
+    fn value(&self, node: usize, inside: &[bool]) -> bool {
+        let Some((operation, [first, second])) = self.nodes[node].made else { return inside[node] };
+        let (first, second) = (inside[first as usize], inside[second as usize]);
+        match operation {
+            CsgOperation::Union => first | second,
+            CsgOperation::Intersection => first & second,
+            CsgOperation::Difference => first & !second,
+        }
+    }
+
+    /// Enters or leaves a leaf, and what is made of it.
+    fn change(&self, end: &End, inside: &mut [bool]) {
+        let mut node = self.leaves[end.leaf as usize] as usize;
+        inside[node] = end.enters;
+        loop {
+            let parent = self.nodes[node].parent as usize;
+            if parent == node {
+                break;
+            }
+            let value = self.value(parent, inside);
+            if inside[parent] == value {
+                break;
+            }
+            inside[parent] = value;
+            node = parent;
+        }
+    }
+}
+
+/// The distances between which a ray is inside a shape, in its own space; in the operations and the order of the
+/// lanes.
+pub(super) fn interval(shape: &Prepared, ray: &Ray) -> [f64; 2] {
+    let dot = |a: DVec3, b: DVec3| a.x * b.x + a.y * b.y + a.z * b.z;
+    let nowhere = [f64::NAN; 2];
+    let Ray { origin, direction } = *ray;
+    match *shape {
+        Prepared::Sphere { center, squared_radius, .. } => {
+            let from_center = origin - center;
+            let a = dot(direction, direction);
+            let b = dot(direction, from_center) * 2.0;
+            let c = dot(from_center, from_center) - squared_radius;
+            let discriminant = b * b - a * 4.0 * c;
+            if discriminant > 0.0 {
+                let root = discriminant.sqrt();
+                [(-b - root) / (a * 2.0), (root - b) / (a * 2.0)]
+            } else {
+                nowhere
+            }
+        }
+        Prepared::Plane { normal, offset, .. } => {
+            let (height, slope) = (dot(normal, origin) + offset, dot(normal, direction));
+            below(height, if slope.abs() < PARALLEL { 0.0 } else { slope })
+        }
+        Prepared::ExactPlane { unit, offset } => below(dot(unit, origin) + offset, dot(unit, direction)),
+        Prepared::ExactSphere { center, radius } => {
+            let a = dot(direction, direction);
+            let from_center = origin - center;
+            let b = -dot(from_center, direction);
+            let c = dot(from_center, from_center) - radius * radius;
+            let nearest = from_center + direction * (b / a);
+            let discriminant = radius * radius - dot(nearest, nearest);
+            if discriminant >= 0.0 {
+                let q = b + (discriminant * a).sqrt().copysign(b);
+                let (t0, t1) = (c / q, q / a);
+                if t0 < t1 { [t0, t1] } else { [t1, t0] }
+            } else {
+                nowhere
+            }
+        }
+        Prepared::Cuboid { min, max, .. } => {
+            let (mut enter, mut exit) = (f64::NEG_INFINITY, f64::INFINITY);
+            for axis in 0..3 {
+                let low = (min[axis] - origin[axis]) / direction[axis];
+                let high = (max[axis] - origin[axis]) / direction[axis];
+                if !low.is_nan() && !high.is_nan() {
+                    let (near, far) = if low < high { (low, high) } else { (high, low) };
+                    enter = if near > enter { near } else { enter };
+                    exit = if far < exit { far } else { exit };
+                }
+            }
+            [enter, exit]
+        }
+    }
+}
+
+/// The distances between which a ray is below a plane, from its height above it and the growth of that.
+fn below(height: f64, slope: f64) -> [f64; 2] {
+    let at = -(height / slope);
+    if slope < 0.0 {
+        [at, f64::INFINITY]
+    } else if slope > 0.0 {
+        [f64::NEG_INFINITY, at]
+    } else if height < 0.0 {
+        [f64::NEG_INFINITY, f64::INFINITY]
+    } else {
+        [f64::NAN; 2]
+    }
+}

@@ -1,0 +1,114 @@
+//! A tracer of obvious code: one ray, every crossing with every surface, and for solids whether points are inside.
+
+use hray_core::{CsgOperation, DAffine3, DVec3, Primitive, Shape};
+
+/// Where a ray meets something: distance, point, outward normal.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Hit {
+    pub(crate) distance: f64,
+    pub(crate) point: DVec3,
+    pub(crate) normal: DVec3,
+}
+
+/// The nearest hit. Of two in the same place, the later.
+pub(crate) fn nearest(primitives: &[Primitive], origin: DVec3, direction: DVec3) -> Option<Hit> {
+    let hits = primitives.iter().filter_map(|primitive| first(primitive, origin, direction));
+    hits.reduce(|best, hit| if hit.distance <= best.distance { hit } else { best })
+}
+
+fn first(primitive: &Primitive, origin: DVec3, direction: DVec3) -> Option<Hit> {
+    let mut all = crossings(primitive, DAffine3::IDENTITY, origin, direction);
+    all.retain(|hit| hit.distance > 0.0);
+    all.sort_by(|a, b| a.distance.total_cmp(&b.distance));
+    if !matches!(primitive.shape, Shape::Csg(_)) {
+        return all.first().copied();
+    }
+    // The surface of a solid is where points just before and just behind are not both inside, or both outside.
+    for (i, hit) in all.iter().enumerate() {
+        let before = if i == 0 { 0.0 } else { all[i - 1].distance };
+        let after = all.get(i + 1).map_or(hit.distance + 1.0, |next| next.distance);
+        let inside =
+            |a: f64, b: f64| is_inside(primitive, DAffine3::IDENTITY, origin + direction * ((a + b) / 2.0));
+        let (was, is) = (inside(before, hit.distance), inside(hit.distance, after));
+        if was != is {
+            // Outward is where one comes from, or goes to.
+            let facing = if hit.normal.dot(direction) < 0.0 { hit.normal } else { -hit.normal };
+            return Some(Hit { normal: if is { facing } else { -facing }, ..*hit });
+        }
+    }
+    None
+}
+
+/// All places in which a ray meets the surface of a primitive's leaves, with the leaves' own normals.
+fn crossings(primitive: &Primitive, outer: DAffine3, origin: DVec3, direction: DVec3) -> Vec<Hit> {
+    let to_world = match &primitive.transform {
+        Some(transform) => outer * **transform,
+        None => outer,
+    };
+    let to_object = to_world.inverse();
+    let (o, d) = (to_object.transform_point3(origin), to_object.transform_vector3(direction));
+    let found: Vec<(f64, DVec3)> = match &primitive.shape {
+        Shape::Csg(csg) => {
+            let [a, b] = &csg.operands;
+            let mut all = crossings(a, to_world, origin, direction);
+            all.extend(crossings(b, to_world, origin, direction));
+            return all;
+        }
+        Shape::Sphere(sphere) => {
+            let f = o - sphere.center;
+            let (a, b, c) = (d.dot(d), 2.0 * f.dot(d), f.dot(f) - sphere.radius * sphere.radius);
+            let discriminant = b * b - 4.0 * a * c;
+            if discriminant <= 0.0 {
+                return Vec::new();
+            }
+            let roots = [-discriminant.sqrt(), discriminant.sqrt()].map(|root| (root - b) / (2.0 * a));
+            roots.map(|t| (t, (o + d * t - sphere.center) / sphere.radius)).to_vec()
+        }
+        Shape::Plane(plane) => {
+            vec![(-(plane.normal.dot(o) + plane.offset) / plane.normal.dot(d), plane.normal)]
+        }
+        Shape::Cuboid(cuboid) => {
+            let mut found = Vec::new();
+            for axis in 0..3 {
+                for (face, sign) in [(cuboid.min[axis], -1.0), (cuboid.max[axis], 1.0)] {
+                    let t = (face - o[axis]) / d[axis];
+                    let p = o + d * t;
+                    let on_face = (0..3).all(|other| {
+                        other == axis || (cuboid.min[other] <= p[other] && p[other] <= cuboid.max[other])
+                    });
+                    if on_face {
+                        found.push((t, DVec3::AXES[axis] * sign));
+                    }
+                }
+            }
+            found
+        }
+    };
+    let hit = |(distance, normal): (f64, DVec3)| Hit {
+        distance,
+        point: origin + direction * distance,
+        normal: (to_object.matrix3.transpose() * normal).normalize(),
+    };
+    found.into_iter().map(hit).collect()
+}
+
+fn is_inside(primitive: &Primitive, outer: DAffine3, point: DVec3) -> bool {
+    let to_world = match &primitive.transform {
+        Some(transform) => outer * **transform,
+        None => outer,
+    };
+    let p = to_world.inverse().transform_point3(point);
+    match &primitive.shape {
+        Shape::Sphere(sphere) => p.distance(sphere.center) < sphere.radius,
+        Shape::Plane(plane) => plane.normal.dot(p) + plane.offset < 0.0,
+        Shape::Cuboid(cuboid) => p.cmpgt(cuboid.min).all() && p.cmplt(cuboid.max).all(),
+        Shape::Csg(csg) => {
+            let [a, b] = csg.operands.each_ref().map(|operand| is_inside(operand, to_world, point));
+            match csg.operation {
+                CsgOperation::Union => a || b,
+                CsgOperation::Intersection => a && b,
+                CsgOperation::Difference => a && !b,
+            }
+        }
+    }
+}

@@ -1,0 +1,199 @@
+//! No size is special: what is a millionth or a billion times as large, seen from as much nearer or farther, looks
+//! the same.
+
+use crate::common::{
+    NOTHING, colors, cuboid, description, glass, gray, matte, mirror, of, placed, plane, sphere, v,
+};
+use hray_core::{
+    Background, Camera, Csg, CsgOperation, DAffine3, DMat3, DVec3, Description, Light, Material, Primitive,
+    Rgb, Shape, Texture,
+};
+use std::sync::Arc;
+
+const SCALES: [f64; 4] = [1e-6, 1.0, 1e6, 1e12];
+
+fn scaled(shape: &Shape, s: f64) -> Shape {
+    match shape {
+        Shape::Sphere(a) => sphere(a.center * s, a.radius * s),
+        Shape::Plane(a) => plane(a.normal, a.offset * s),
+        Shape::Cuboid(a) => cuboid(a.min * s, a.max * s),
+        Shape::Csg(csg) => Shape::Csg(Arc::new(Csg {
+            operation: csg.operation,
+            operands: csg.operands.each_ref().map(|operand| primitive(operand, s)),
+        })),
+    }
+}
+
+fn primitive(p: &Primitive, s: f64) -> Primitive {
+    let transform = p
+        .transform
+        .as_ref()
+        .map(|t| Arc::new(DAffine3 { matrix3: t.matrix3, translation: t.translation * s }));
+    Primitive { shape: scaled(&p.shape, s), transform, material: p.material.clone() }
+}
+
+fn at_scale(description: &Description, s: f64) -> Description {
+    let mut scaled = description.clone();
+    let Camera::Perspective(camera) = &mut scaled.scene.camera else { panic!() };
+    (camera.from, camera.to) = (camera.from * s, camera.to * s);
+    scaled.scene.primitives = description.scene.primitives.iter().map(|p| primitive(p, s)).collect();
+    for light in &mut scaled.scene.lights {
+        if let Light::Point { position, .. } | Light::Spot { position, .. } = light {
+            *position *= s;
+        }
+    }
+    scaled
+}
+
+fn everything() -> Description {
+    let half = Arc::new(Material {
+        reflection: 0.4.into(),
+        shine: 20.0.into(),
+        ..Material::matte(Texture::Solid(Rgb::new(0.6, 0.3, 0.2)))
+    });
+    let bored = Csg {
+        operation: CsgOperation::Difference,
+        operands: [
+            of(cuboid(v(-0.5, -0.5, -0.5), v(0.5, 0.5, 0.5)), &half),
+            of(sphere(DVec3::ZERO, 0.62), &matte(0.8)),
+        ],
+    };
+    let turned = DAffine3 {
+        matrix3: DMat3::from_rotation_y(0.6) * DMat3::from_rotation_x(0.3),
+        translation: v(-0.9, 0.1, 0.3),
+    };
+    let primitives = vec![
+        of(plane(v(0.0, 1.0, 0.1), 0.9), &half),
+        of(sphere(v(0.8, 0.0, 0.0), 0.5), &glass(1.5)),
+        of(sphere(v(0.1, -0.5, 0.9), 0.3), &mirror()),
+        placed(of(Shape::Csg(Arc::new(bored)), &half), turned),
+        placed(
+            of(sphere(DVec3::ZERO, 0.5), &half),
+            DAffine3 {
+                matrix3: DMat3::from_rotation_z(0.5) * DMat3::from_diagonal(v(0.5, 1.4, 0.8)),
+                translation: v(0.2, 0.6, -0.6),
+            },
+        ),
+    ];
+    let lights = vec![
+        Light::Point { position: v(3.0, 5.0, 4.0), intensity: gray(0.7) },
+        Light::Directional { direction: v(0.6, -0.8, 0.0), intensity: gray(0.2) },
+        Light::Ambient { intensity: gray(0.1) },
+    ];
+    let mut description = description(48, primitives, lights);
+    description.scene.background = Background::Uniform(Rgb::new(0.1, 0.2, 0.4));
+    description
+}
+
+#[test]
+fn a_scene_looks_the_same_at_every_scale() {
+    let expected = colors(&everything());
+    for s in SCALES {
+        let found = colors(&at_scale(&everything(), s));
+        let differs = |(a, b): (&Rgb, &Rgb)| {
+            let [a, b] = [a, b].map(|c| DVec3::from_array(c.to_array()));
+            (a - b).abs().max_element() > 1e-6
+        };
+        let different = expected.iter().zip(&found).filter(|pair| differs(*pair)).count();
+        // A ray that just grazes an edge may fall on either side.
+        assert!(different <= 4, "{different} pixels differ at {s}");
+    }
+    // By powers of two nothing rounds otherwise: it is the same to the bit.
+    assert!(colors(&at_scale(&everything(), 1024.0)) == expected);
+}
+
+/// A convex mirror alone in the world sees only the background, and not itself.
+#[test]
+fn a_mirror_does_not_see_itself() {
+    let turned = DAffine3::from_axis_angle(v(1.0, 2.0, 3.0).normalize(), 0.7);
+    let shapes = [
+        of(sphere(v(0.1, 0.2, 0.0), 1.2), &mirror()),
+        of(sphere(v(-0.1, 0.0, -100.0), 99.0), &mirror()),
+        of(cuboid(v(-1.0, 0.0, -1.0), v(0.7, 0.9, 1.0)), &mirror()),
+        of(plane(v(0.2, 0.9, 0.3), 0.4), &mirror()),
+        placed(of(cuboid(v(-1.0, 0.0, -1.0), v(0.7, 0.9, 1.0)), &mirror()), turned),
+        placed(of(sphere(v(5.0, 0.0, 0.0), 2.0), &mirror()), DAffine3::from_scale(v(0.4, 0.7, 0.2))),
+        placed(of(plane(v(0.2, 0.9, 0.3), 0.4), &mirror()), turned),
+    ];
+    for (i, shape) in shapes.iter().enumerate() {
+        for s in SCALES {
+            let mut description = at_scale(&description(64, vec![shape.clone()], Vec::new()), s);
+            description.scene.background = Background::Uniform(gray(0.5));
+            let found = colors(&description);
+            assert!(found.iter().all(|c| (c.r - 0.5).abs() < 1e-12), "shape {i} at {s}");
+        }
+    }
+}
+
+/// Glass that does not bend the light is invisible, and takes exactly two surfaces of depth.
+#[test]
+fn clear_glass_is_invisible() {
+    let turned = DAffine3::from_axis_angle(v(1.0, 2.0, 3.0).normalize(), 0.7);
+    let shapes = [
+        of(sphere(v(0.1, 0.2, 0.0), 1.2), &glass(1.0)),
+        of(cuboid(v(-1.0, -0.3, -1.0), v(0.7, 0.9, 1.0)), &glass(1.0)),
+        placed(of(cuboid(v(-1.0, 0.0, -1.0), v(0.7, 0.9, 1.0)), &glass(1.0)), turned),
+        placed(of(sphere(v(5.0, 0.0, 0.0), 2.0), &glass(1.0)), DAffine3::from_scale(v(0.4, 0.7, 0.2))),
+    ];
+    for (i, shape) in shapes.iter().enumerate() {
+        for s in SCALES {
+            let mut description = at_scale(&description(64, vec![shape.clone()], Vec::new()), s);
+            description.max_depth = 2;
+            description.scene.background = Background::Uniform(gray(0.5));
+            let found = colors(&description);
+            let wrong = found.iter().filter(|c| (c.r - 0.5).abs() > 1e-12).count();
+            assert!(wrong <= 1, "{wrong} pixels: shape {i} at {s}");
+        }
+    }
+}
+
+/// A lit ball has a dark and a lit half, and no speckles: with the light at the camera all of it is lit.
+#[test]
+fn no_shadow_falls_on_what_is_seen_from_the_light() {
+    let turned = DAffine3::from_axis_angle(v(1.0, 2.0, 3.0).normalize(), 0.7);
+    let shapes = [
+        of(sphere(v(0.1, 0.2, 0.0), 1.2), &matte(1.0)),
+        of(sphere(v(-0.1, 0.0, -1000.0), 999.0), &matte(1.0)),
+        of(cuboid(v(-1.0, 0.0, -1.0), v(0.7, 0.9, 1.0)), &matte(1.0)),
+        of(plane(v(0.2, 0.9, 0.3), 0.4), &matte(1.0)),
+        placed(of(cuboid(v(-1.0, 0.0, -1.0), v(0.7, 0.9, 1.0)), &matte(1.0)), turned),
+        placed(of(sphere(v(5.0, 0.0, 0.0), 2.0), &matte(1.0)), DAffine3::from_scale(v(0.4, 0.7, 0.2))),
+    ];
+    for (i, shape) in shapes.iter().enumerate() {
+        for s in SCALES {
+            let light = Light::Point { position: v(0.0, 0.0, 4.0), intensity: gray(1.0) };
+            let description = at_scale(&description(64, vec![shape.clone()], vec![light]), s);
+            let dark = colors(&description).iter().filter(|c| **c != NOTHING && c.r <= 0.0).count();
+            assert_eq!(dark, 0, "shape {i} at {s}");
+        }
+    }
+}
+
+/// Light that strikes a pane of glass from within at more than the critical angle stays inside.
+#[test]
+fn total_reflection_mirrors() {
+    // From inside a block of glass, at 60° to its side: sin 60° > 1 / 1.5.
+    let block = of(cuboid(v(-1.0, -9.0, -9.0), v(9.0, 9.0, 9.0)), &glass(1.5));
+    let glow = Some(Texture::Solid(gray(0.75)));
+    let lamp = Arc::new(Material { glow, ..Material::matte(Texture::Solid(Rgb::BLACK)) });
+    let inside = of(sphere(v(1.0, 0.0, -2.0 * 3.0f64.sqrt()), 0.5), &lamp);
+    let mut description = description(1, vec![block, inside], Vec::new());
+    let Camera::Perspective(camera) = &mut description.scene.camera else { panic!() };
+    // The ray leads from (1, 0, 2√3) to the side at x = -1 and is mirrored there to (1, 0, -2√3).
+    (camera.from, camera.to) = (v(1.0, 0.0, 2.0 * 3.0f64.sqrt()), v(-1.0, 0.0, 0.0));
+    assert!((colors(&description)[0].r - 0.75).abs() < 1e-12);
+}
+
+/// Snell: at 45° into glass of index √2 light goes on at 30°, and leaves a pane as it came.
+#[test]
+fn glass_bends_light_both_ways() {
+    let pane = of(cuboid(v(-9.0, -9.0, -1.0), v(9.0, 9.0, 0.0)), &glass(2.0f64.sqrt()));
+    let screen = of(plane(DVec3::Z, 2.0), &crate::common::showing(crate::common::WORLD));
+    let mut description = description(1, vec![pane, screen], Vec::new());
+    let Camera::Perspective(camera) = &mut description.scene.camera else { panic!() };
+    (camera.from, camera.to) = (v(-1.0, 0.0, 1.0), DVec3::ZERO);
+    let found = crate::common::shown(colors(&description)[0]).unwrap();
+    // Across the pane by tan 30°, then by 1 to the screen.
+    let expected = v(libm::tan(std::f64::consts::FRAC_PI_6) + 1.0, 0.0, -2.0);
+    assert!(found.distance(expected) < 1e-12, "{found} instead of {expected}");
+}
