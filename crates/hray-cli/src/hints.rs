@@ -20,6 +20,9 @@ fn hint(error: &Error, arguments: &[OsString]) -> Option<String> {
     else {
         return None;
     };
+    if let Some(hint) = split_setting(unknown, arguments) {
+        return Some(hint);
+    }
     let cli = Cli::command();
     let is_command = |name: &OsString| cli.get_subcommands().any(|command| name == command.get_name());
     match arguments.iter().find(|argument| is_command(argument)) {
@@ -39,6 +42,15 @@ fn hint(error: &Error, arguments: &[OsString]) -> Option<String> {
             known.then(|| classic_option(unknown, arguments))
         }
     }
+}
+
+/// `--set count 3`, or `--set count = 3`.
+fn split_setting(unknown: &str, arguments: &[OsString]) -> Option<String> {
+    let place = arguments.windows(3).position(|three| three[0] == "--set" && three[2] == unknown)?;
+    let name = arguments.get(place + 1)?.to_str().filter(|name| !name.contains('='))?;
+    let value = arguments.get(place + 2..)?.iter().find(|value| *value != "=")?.to_string_lossy();
+    let value = value.trim_start_matches('=');
+    Some(format!("a setting is one word: `--set {}={}`", name.escape_debug(), value.escape_debug()))
 }
 
 /// `hray render a.hry x.png`.

@@ -57,7 +57,7 @@ fn settings_that_do_not_fit_are_refused() {
         .run("render row.hry --set coutn=1")
         .says(1, &["there is no definition `coutn`", "did you mean `count`?"]);
     folder.run("render row.hry --set count=").says(2, &["a setting is the name of a definition"]);
-    folder.run("render row.hry --set count 3").says(2, &["a setting is the name of a definition"]);
+    folder.run("render row.hry --set count 3").says(2, &["a setting is one word: `--set count=3`"]);
     folder.run("render row.hry --set count=(").says(1, &["--set count:1:"]);
     folder.run("render row.hry --set count=red").says(1, &["error"]);
     folder

@@ -48,8 +48,8 @@ fn the_format_is_told_by_the_option_before_the_name() {
         .run("render scene.hry -o picture")
         .says(2, &["`picture`: it has no extension; known are png, ppm"]);
     folder
-        .run("render scene.hry -o a.gif")
-        .says(2, &["no picture format has the extension `gif`", "--format"]);
+        .run("render scene.hry -o a.jp2")
+        .says(2, &["no picture format has the extension `jp2`", "--format"]);
     folder
         .run("render scene.hry --format gif")
         .says(2, &["invalid value 'gif'", "[possible values: png, ppm"]);

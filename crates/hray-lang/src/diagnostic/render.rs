@@ -95,6 +95,10 @@ impl Page<'_> {
             }
             _ => self.renderer.render(&[group]),
         };
+        if shown.is_empty() {
+            // The layout leaves no room for the numbers of lines where it shows none.
+            return text.replace('\n', "\n ");
+        }
         with_true_columns(text, &shown, &spans)
     }
 
