@@ -92,7 +92,7 @@ fn a_scene_without_time_is_rendered_with_one_warning() {
 #[test]
 fn what_goes_wrong_at_a_later_moment_is_said_with_the_frame() {
     let folder = folder();
-    folder.write("late.hry", MOVING.replace("radius = 0.5", "radius = 1.5 - time"));
+    folder.write("late.hry", MOVING.replace("radius = 0.5", "radius = sqrt (1.5 - time)"));
     folder
         .run("render late.hry --frames 0..3 --fps 1 -o f#.png")
         .says(1, &["late.hry:6:", "frame 2, at 2 seconds, has errors"]);
