@@ -1,7 +1,6 @@
 //! Scenes of both languages, by way of the facade.
 
 #![allow(clippy::unwrap_used, clippy::expect_used, reason = "a test may fail loudly")]
-
 #![allow(clippy::panic, reason = "tests may fail loudly")]
 
 use hray::{

@@ -90,3 +90,13 @@ fn endless_loops_end() {
     );
     assert!(text.contains("100,000 steps"), "{text}");
 }
+
+#[test]
+fn loops_in_loops_are_bounded() {
+    let text = errors(
+        "inner h x = iterate 90000 (\\y -> y > h.p.y) (\\y -> y + 1) x
+f h = iterate 90000 (\\x -> x > h.p.x) (inner h) 0
+scene = { objects = [sphere { material = classic { reflection = f } }] }",
+    );
+    assert!(text.contains("more than 100 million operations for one hit"), "{text}");
+}

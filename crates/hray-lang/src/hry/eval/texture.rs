@@ -3,13 +3,17 @@
 use super::compile::internal;
 use super::construct::is_color;
 use super::failure::{Failure, Outcome};
-use super::machine::Machine;
+use super::machine::{Machine, grouped};
 use super::scalar::parts;
 use super::value::{FunctionKind, FunctionValue, Given, HitValue, RecordValue, Scalar, Value};
 use crate::diagnostic::{Diagnostic, Span};
 use hray_core::{DVec3, Field, Function, NoiseTexture, Rgb, Texture};
 use hray_expr::{Builder, DerivativeError, Input, NodeId};
 use std::sync::Arc;
+
+/// The most operations that a function may take at one hit, loops counted as often as they may go round: about a tenth of
+/// a second.
+const MOST_OPERATIONS: u64 = 100_000_000;
 
 /// What comes of a function of a hit.
 pub(super) enum Compiled {
@@ -50,7 +54,18 @@ impl Machine<'_> {
             three.iter_mut().zip(constants).for_each(|(slot, value)| *slot = value);
             return Ok(Compiled::Constant(three));
         }
-        Ok(Compiled::Function(Arc::new(builder.finish(&nodes))))
+        let function = builder.finish(&nodes);
+        if function.cost() > MOST_OPERATIONS {
+            let message = format!(
+                "this function may take more than {} operations for one hit",
+                grouped(MOST_OPERATIONS)
+            );
+            return Err(Failure::new(
+                Diagnostic::error("function-too-slow", message, span, "worked out for every hit")
+                    .with_help("let `iterate` go round less often; loops inside loops multiply"),
+            ));
+        }
+        Ok(Compiled::Function(Arc::new(function)))
     }
 
     /// A colour that may be a function of the hit.

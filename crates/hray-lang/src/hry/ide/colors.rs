@@ -217,7 +217,9 @@ mod tests {
 
     #[test]
     fn colours_survive_their_other_forms() {
-        for color in [[0.0, 0.0, 0.0], [1.0, 1.0, 1.0], [1.0, 0.6, 0.2], [0.12, 0.91, 0.33], [0.2, 0.31, 0.92]] {
+        for color in
+            [[0.0, 0.0, 0.0], [1.0, 1.0, 1.0], [1.0, 0.6, 0.2], [0.12, 0.91, 0.33], [0.2, 0.31, 0.92]]
+        {
             let (h, s, l) = hsl(color);
             let back = from_hsl(h.to_radians(), s, l);
             assert_eq!(hex(back), hex(color));
