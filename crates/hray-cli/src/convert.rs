@@ -26,11 +26,7 @@ pub(crate) fn run(arguments: &ConvertArgs, console: &Console) -> Result<(), Fail
     }
     console.say(job::report(&file, console));
     let text = hray::convert(job::description(&file)?).ok_or_else(|| {
-        Failure::Wrong(
-            "the scene has numbers that hry does not take: a sphere in hry has a radius greater than 0, a plane a \
-             normal that is not zero, and all numbers are finite"
-                .to_owned(),
-        )
+        Failure::Wrong("the scene has numbers that are not finite, which hry has no notation for".to_owned())
     })?;
     match output {
         None => console.print(text.as_bytes()).map_err(|error| Failure::stdout(&error)),
