@@ -207,27 +207,30 @@ struct Toward<S: Simd> {
 
 #[inline(always)]
 fn toward<S: Simd>(simd: S, light: &Light, exact: bool, point: Vec3<S>) -> Toward<S> {
-    let from_point = |position: DVec3, intensity: Rgb| {
-        let way = Vec3::splat(simd, position).sub(point);
-        let (to_light, distance) =
-            if exact { (unit(simd, way), way.dot(way).sqrt()) } else { way.norm(simd) };
-        Toward { to_light, distance, intensity: Vec3::splat(simd, intensity) }
-    };
     match *light {
-        Light::Point { position, intensity } => from_point(position, intensity),
-        Light::Ambient { intensity } => from_point(DVec3::ZERO, intensity),
+        Light::Point { position, intensity } => from_point(simd, exact, point, position, intensity),
+        Light::Ambient { intensity } => from_point(simd, exact, point, DVec3::ZERO, intensity),
         Light::Directional { direction, intensity } => Toward {
             to_light: Vec3::splat(simd, -direction),
             distance: Lanes::<S>::splat(simd, f64::INFINITY),
             intensity: Vec3::splat(simd, intensity),
         },
         Light::Spot { position, axis, cos_inner, cos_outer, intensity } => {
-            let mut seen = from_point(position, intensity);
+            let mut seen = from_point(simd, exact, point, position, intensity);
             let cosine = -seen.to_light.dot(Vec3::splat(simd, axis));
             seen.intensity = seen.intensity.scale(inside_cone(simd, cosine, cos_inner, cos_outer));
             seen
         }
     }
+}
+
+/// The way to a point, and what shines there. A function, because a closure would be called and not inlined, and then not
+/// compiled for the machine's vectors.
+#[inline(always)]
+fn from_point<S: Simd>(simd: S, exact: bool, point: Vec3<S>, position: DVec3, intensity: Rgb) -> Toward<S> {
+    let way = Vec3::splat(simd, position).sub(point);
+    let (to_light, distance) = if exact { (unit(simd, way), way.dot(way).sqrt()) } else { way.norm(simd) };
+    Toward { to_light, distance, intensity: Vec3::splat(simd, intensity) }
 }
 
 /// 1 in the inner cone, 0 outside the outer one, smooth between.
