@@ -15,8 +15,9 @@ pub struct SourceFile {
     pub base: usize,
 }
 
-/// Where the offsets of the standard library begin: beyond those of any scene.
-pub const STANDARD_BASE: usize = 1 << 40;
+/// Where the offsets of the standard library begin: beyond those of any scene (in a browser, where a `usize` has 32 bits, beyond
+/// the half of all memory).
+pub const STANDARD_BASE: usize = 1 << if usize::BITS > 40 { 40 } else { usize::BITS - 1 };
 
 /// All files of a program, in the order of their bases. The first is the scene itself; the standard library's are always
 /// there, from [`STANDARD_BASE`] on.
