@@ -1,0 +1,447 @@
+//! Building a tree from the top down by the surface area heuristic over bins (Wald, *On Fast Construction of SAH-based Bounding
+//! Volume Hierarchies*, 2007): a set is cut in two until there are eight, each time the one with the greatest surface.
+//!
+//! What is cut where depends on the boxes alone; threads build disjoint parts, which are put together in order.
+
+use crate::Bounds;
+use crate::tree::{Child, MOST_UNITS, Node, Tree, WIDTH};
+use rayon::prelude::*;
+
+/// How much care a tree is built with.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Quality {
+    /// Bins over the middles of boxes.
+    #[default]
+    Medium,
+}
+
+/// How to build.
+#[derive(Clone, Copy, Debug, Default)]
+#[non_exhaustive]
+pub struct BuildOptions {
+    /// How much care to take.
+    pub quality: Quality,
+}
+
+/// A thing to be sorted into the tree.
+#[repr(C, align(32))]
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Primitive {
+    min: [f32; 3],
+    /// What the caller calls it.
+    pub(crate) number: u32,
+    max: [f32; 3],
+    _rest: u32,
+}
+
+impl Primitive {
+    pub(crate) fn new(bounds: &Bounds, number: u32) -> Self {
+        Self { min: bounds.min, number, max: bounds.max, _rest: 0 }
+    }
+
+    #[inline(always)]
+    fn middle(&self, axis: usize) -> f32 {
+        0.5 * self.min[axis] + 0.5 * self.max[axis]
+    }
+}
+
+/// Where the things in leaves are kept, in units of up to `UNIT` things that are tested together.
+pub(crate) trait Store: Send + Sync + Sized {
+    const UNIT: usize;
+    /// One for a part of the tree.
+    fn empty(&self) -> Self;
+    /// How many units it has.
+    fn len(&self) -> usize;
+    /// Adds a leaf.
+    fn push(&mut self, primitives: &[Primitive]);
+    /// Adds all of another, behind.
+    fn append(&mut self, other: Self);
+    /// No more will come.
+    fn finish(&mut self);
+}
+
+const MOST_BINS: usize = 32;
+/// What a node costs, where a unit costs 1.
+const NODE_COST: f32 = 1.0;
+/// Sets of more things are built by several threads.
+const PARALLEL: usize = 1 << 13;
+/// Things that a thread bins at a time.
+const CHUNK: usize = 1 << 15;
+/// Deeper down, sets are halved.
+const DEEPEST: usize = 40;
+
+/// A box to be widened quickly; the fourth lane is not used.
+#[derive(Clone, Copy)]
+#[repr(C, align(32))]
+struct Wide {
+    min: [f32; 4],
+    max: [f32; 4],
+}
+
+impl Wide {
+    const EMPTY: Self = Self { min: [f32::INFINITY; 4], max: [f32::NEG_INFINITY; 4] };
+
+    #[inline(always)]
+    fn add(&mut self, min: [f32; 4], max: [f32; 4]) {
+        // Compiles to one instruction each, which `f32::min` does not, because of numbers that are none.
+        for lane in 0..4 {
+            self.min[lane] = if min[lane] < self.min[lane] { min[lane] } else { self.min[lane] };
+            self.max[lane] = if max[lane] > self.max[lane] { max[lane] } else { self.max[lane] };
+        }
+    }
+
+    #[inline(always)]
+    fn bounds(&self) -> Bounds {
+        let [a, b, c, _] = self.min;
+        let [d, e, f, _] = self.max;
+        Bounds { min: [a, b, c], max: [d, e, f] }
+    }
+}
+
+/// A set of things: their box, and that of their middles.
+#[derive(Clone, Copy)]
+struct Extent {
+    bounds: Wide,
+    middles: Wide,
+}
+
+impl Extent {
+    const EMPTY: Self = Self { bounds: Wide::EMPTY, middles: Wide::EMPTY };
+
+    #[inline(always)]
+    fn add(&mut self, p: &Primitive) {
+        self.bounds.add([p.min[0], p.min[1], p.min[2], 0.0], [p.max[0], p.max[1], p.max[2], 0.0]);
+        let middle = [p.middle(0), p.middle(1), p.middle(2), 0.0];
+        self.middles.add(middle, middle);
+    }
+
+    fn join(mut self, other: Self) -> Self {
+        self.bounds.add(other.bounds.min, other.bounds.max);
+        self.middles.add(other.middles.min, other.middles.max);
+        self
+    }
+
+    fn of(primitives: &[Primitive]) -> Self {
+        let serial = |chunk: &[Primitive]| {
+            chunk.iter().fold(Self::EMPTY, |mut extent, primitive| {
+                extent.add(primitive);
+                extent
+            })
+        };
+        if primitives.len() <= CHUNK {
+            return serial(primitives);
+        }
+        primitives.par_chunks(CHUNK).map(serial).reduce(|| Self::EMPTY, Self::join)
+    }
+}
+
+/// A set that is to become a child.
+#[derive(Clone, Copy)]
+struct Set {
+    start: usize,
+    end: usize,
+    extent: Extent,
+    /// Not to be cut further.
+    is_leaf: bool,
+}
+
+impl Set {
+    fn len(&self) -> usize {
+        self.end - self.start
+    }
+}
+
+/// A part of the tree, before it is put together.
+enum Part<S> {
+    /// Nodes that begin with the part's first, and what is in its leaves.
+    Whole { nodes: Vec<Node>, store: S, depth: usize },
+    /// A node whose children were built apart.
+    Forked { node: Box<Node>, parts: Vec<(usize, Self)>, store: S },
+}
+
+pub(crate) struct Builder {
+    _options: BuildOptions,
+}
+
+impl Builder {
+    pub(crate) fn new(options: &BuildOptions) -> Self {
+        Self { _options: *options }
+    }
+
+    /// Builds a tree, and fills a store with what is in its leaves.
+    pub(crate) fn build<S: Store>(&self, mut primitives: Vec<Primitive>, store: S) -> (Tree, S) {
+        let extent = Extent::of(&primitives);
+        let bounds = extent.bounds.bounds();
+        let mut tree = Tree { nodes: Vec::new(), root: None, bounds, stack: 1 };
+        let mut all = store.empty();
+        if primitives.is_empty() {
+            return (tree, all);
+        }
+        let set = Set { start: 0, end: primitives.len(), extent, is_leaf: false };
+        let part = self.part(&mut primitives, set, &store, 0);
+        drop(primitives);
+        let (root, depth) = flatten(part, &mut tree.nodes, &mut all);
+        tree.nodes.shrink_to_fit();
+        all.finish();
+        tree.root = Some(root);
+        tree.stack = (WIDTH - 1) * depth + 1;
+        (tree, all)
+    }
+
+    /// Builds a set, with others if it is large.
+    fn part<S: Store>(&self, primitives: &mut [Primitive], set: Set, store: &S, depth: usize) -> Part<S> {
+        let mut own = store.empty();
+        if set.len() <= PARALLEL {
+            let mut nodes = Vec::new();
+            let depth = self.node(primitives, set, &mut nodes, &mut own, depth);
+            return Part::Whole { nodes, store: own, depth };
+        }
+        let sets = self.cut::<S>(primitives, set, depth);
+        let mut node = Box::new(Node::EMPTY);
+        let mut rest = &mut primitives[..];
+        let mut taken = set.start;
+        let mut jobs = Vec::new();
+        for (slot, child) in sets.iter().enumerate() {
+            let (before, after) = rest.split_at_mut(child.end - taken);
+            (rest, taken) = (after, child.end);
+            if child.is_leaf {
+                node.set(slot, &child.extent.bounds.bounds(), push(before, &mut own));
+            } else {
+                node.set(slot, &child.extent.bounds.bounds(), Child::node(0));
+                let here = Set { start: 0, end: before.len(), ..*child };
+                jobs.push((slot, before, here));
+            }
+        }
+        let parts = jobs
+            .into_par_iter()
+            .with_max_len(1)
+            .map(|(slot, primitives, set)| (slot, self.part(primitives, set, store, depth + 1)))
+            .collect();
+        Part::Forked { node, parts, store: own }
+    }
+
+    /// Builds a set's node at the end of `nodes`, or its leaf if it is the whole tree's only one (then without a node). Returns
+    /// how deep it is.
+    fn node<S: Store>(
+        &self,
+        primitives: &mut [Primitive],
+        set: Set,
+        nodes: &mut Vec<Node>,
+        store: &mut S,
+        depth: usize,
+    ) -> usize {
+        let sets = self.cut::<S>(primitives, set, depth);
+        let index = nodes.len();
+        nodes.push(Node::EMPTY);
+        let mut deepest = 0;
+        for (slot, child) in sets.iter().enumerate() {
+            let reference = if child.is_leaf {
+                push(&primitives[child.start..child.end], store)
+            } else {
+                let reference = Child::node(nodes.len());
+                deepest = deepest.max(self.node(primitives, *child, nodes, store, depth + 1));
+                reference
+            };
+            nodes[index].set(slot, &child.extent.bounds.bounds(), reference);
+        }
+        deepest + 1
+    }
+
+    /// Cuts a set into up to eight, in the order of their places.
+    fn cut<S: Store>(&self, primitives: &mut [Primitive], set: Set, depth: usize) -> Vec<Set> {
+        let mut sets = Vec::with_capacity(WIDTH);
+        sets.push(set);
+        while sets.len() < WIDTH {
+            let area = |set: &Set| set.extent.bounds.bounds().half_area();
+            let mut largest: Option<usize> = None;
+            for (index, set) in sets.iter().enumerate() {
+                if !set.is_leaf && largest.is_none_or(|other| area(set) > area(&sets[other])) {
+                    largest = Some(index);
+                }
+            }
+            let Some(index) = largest else { break };
+            match split::<S>(primitives, &sets[index], depth) {
+                Some([left, right]) => {
+                    sets[index] = left;
+                    sets.insert(index + 1, right);
+                }
+                None => sets[index].is_leaf = true,
+            }
+        }
+        sets
+    }
+}
+
+fn push<S: Store>(primitives: &[Primitive], store: &mut S) -> Child {
+    let first = store.len();
+    store.push(primitives);
+    Child::leaf(first, store.len() - first)
+}
+
+/// Puts parts together; the root and the depth.
+fn flatten<S: Store>(part: Part<S>, nodes: &mut Vec<Node>, store: &mut S) -> (Child, usize) {
+    let (first_node, first_unit) = (nodes.len(), store.len());
+    match part {
+        Part::Whole { nodes: mut new, store: units, depth } => {
+            for node in &mut new {
+                node.move_children(first_node, first_unit);
+            }
+            nodes.append(&mut new);
+            store.append(units);
+            (Child::node(first_node), depth)
+        }
+        Part::Forked { mut node, parts, store: units } => {
+            node.move_children(0, first_unit);
+            nodes.push(*node);
+            store.append(units);
+            let mut deepest = 0;
+            for (slot, part) in parts {
+                let (child, depth) = flatten(part, nodes, store);
+                nodes[first_node].point(slot, child);
+                deepest = deepest.max(depth);
+            }
+            (Child::node(first_node), deepest + 1)
+        }
+    }
+}
+
+#[derive(Clone, Copy)]
+struct Bin {
+    extent: Wide,
+    count: u32,
+}
+
+type Bins = [[Bin; MOST_BINS]; 3];
+
+/// From a middle to a bin.
+struct Ruler {
+    bins: usize,
+    least: [f32; 3],
+    scale: [f32; 3],
+}
+
+impl Ruler {
+    fn new(set: &Set) -> Self {
+        let bins = (4 + set.len() / 20).min(MOST_BINS);
+        let least = set.extent.middles.bounds().min;
+        let extent = set.extent.middles.bounds().extent();
+        // Not along axes in which all middles are the same, or too far apart to be told.
+        let scale = extent.map(|x| {
+            let scale = bins as f32 * 0.999_99 / x;
+            if x > 0.0 && scale.is_finite() { scale } else { 0.0 }
+        });
+        Self { bins, least, scale }
+    }
+
+    #[inline(always)]
+    fn bin(&self, primitive: &Primitive, axis: usize) -> usize {
+        (((primitive.middle(axis) - self.least[axis]) * self.scale[axis]) as usize).min(self.bins - 1)
+    }
+
+    fn count(&self, primitives: &[Primitive]) -> Bins {
+        let mut bins = [[Bin { extent: Wide::EMPTY, count: 0 }; MOST_BINS]; 3];
+        for primitive in primitives {
+            let min = [primitive.min[0], primitive.min[1], primitive.min[2], 0.0];
+            let max = [primitive.max[0], primitive.max[1], primitive.max[2], 0.0];
+            for (axis, bins) in bins.iter_mut().enumerate() {
+                let bin = &mut bins[self.bin(primitive, axis) & (MOST_BINS - 1)];
+                bin.extent.add(min, max);
+                bin.count += 1;
+            }
+        }
+        bins
+    }
+
+    fn count_all(&self, primitives: &[Primitive]) -> Bins {
+        if primitives.len() <= CHUNK {
+            return self.count(primitives);
+        }
+        let empty = || [[Bin { extent: Wide::EMPTY, count: 0 }; MOST_BINS]; 3];
+        primitives.par_chunks(CHUNK).map(|chunk| self.count(chunk)).reduce(empty, |mut a, b| {
+            for (a, b) in a.as_flattened_mut().iter_mut().zip(b.as_flattened()) {
+                a.extent.add(b.extent.min, b.extent.max);
+                a.count += b.count;
+            }
+            a
+        })
+    }
+
+    /// The cheapest cut, its cost in areas times units: axis and the first bin on the right.
+    fn best<S: Store>(&self, bins: &Bins) -> Option<(f32, usize, usize)> {
+        let mut best: Option<(f32, usize, usize)> = None;
+        for (axis, bins) in bins.iter().enumerate() {
+            if self.scale[axis] == 0.0 {
+                continue;
+            }
+            let mut right = [0.0; MOST_BINS];
+            let (mut extent, mut count) = (Wide::EMPTY, 0);
+            for cut in (1..self.bins).rev() {
+                extent.add(bins[cut].extent.min, bins[cut].extent.max);
+                count += bins[cut].count;
+                right[cut] = cost::<S>(&extent, count);
+            }
+            (extent, count) = (Wide::EMPTY, 0);
+            let total: u32 = bins[..self.bins].iter().map(|bin| bin.count).sum();
+            for cut in 1..self.bins {
+                extent.add(bins[cut - 1].extent.min, bins[cut - 1].extent.max);
+                count += bins[cut - 1].count;
+                let cost = cost::<S>(&extent, count) + right[cut];
+                if count > 0 && count < total && best.is_none_or(|(least, ..)| cost < least) {
+                    best = Some((cost, axis, cut));
+                }
+            }
+        }
+        best
+    }
+}
+
+fn cost<S: Store>(extent: &Wide, count: u32) -> f32 {
+    if count == 0 { 0.0 } else { extent.bounds().half_area() * count.div_ceil(S::UNIT as u32) as f32 }
+}
+
+/// Cuts a set in two, unless it had better be a leaf.
+fn split<S: Store>(primitives: &mut [Primitive], set: &Set, depth: usize) -> Option<[Set; 2]> {
+    let count = set.len();
+    if count <= S::UNIT {
+        return None;
+    }
+    let here = &mut primitives[set.start..set.end];
+    let fits = count <= MOST_UNITS * S::UNIT;
+    let ruler = Ruler::new(set);
+    let best = if depth < DEEPEST { ruler.best::<S>(&ruler.count_all(here)) } else { None };
+    let Some((cost, axis, cut)) = best else {
+        if fits {
+            return None;
+        }
+        return Some(halves(here, set));
+    };
+    let area = set.extent.bounds.bounds().half_area();
+    if fits && area * NODE_COST + cost >= area * count.div_ceil(S::UNIT) as f32 {
+        return None;
+    }
+    let (mut left, mut right) = (Extent::EMPTY, Extent::EMPTY);
+    let (mut low, mut high) = (0, here.len());
+    while low < high {
+        if ruler.bin(&here[low], axis) < cut {
+            left.add(&here[low]);
+            low += 1;
+        } else {
+            high -= 1;
+            right.add(&here[low]);
+            here.swap(low, high);
+        }
+    }
+    let middle = set.start + low;
+    Some([Set { end: middle, extent: left, ..*set }, Set { start: middle, extent: right, ..*set }])
+}
+
+/// Cuts a set in the middle, as its things lie.
+fn halves(here: &[Primitive], set: &Set) -> [Set; 2] {
+    let (left, right) = here.split_at(here.len() / 2);
+    let middle = set.start + left.len();
+    [
+        Set { end: middle, extent: Extent::of(left), ..*set },
+        Set { start: middle, extent: Extent::of(right), ..*set },
+    ]
+}

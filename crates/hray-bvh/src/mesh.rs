@@ -1,0 +1,215 @@
+//! A tree over triangles.
+
+use crate::build::{Builder, Primitive, Store};
+use crate::triangle::{Block, Shear, hits};
+use crate::{Bounds, BuildOptions, Leaves, Ray, Stack, Tree};
+use fearless_simd::prelude::*;
+use std::fmt;
+
+/// Where a ray meets a triangle.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Hit {
+    /// How far along the ray, in units of its direction's length.
+    pub distance: f32,
+    /// The triangle's number.
+    pub triangle: u32,
+    /// The weights of its second and third vertex.
+    pub weights: [f32; 2],
+}
+
+/// Why a mesh cannot be built.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum MeshError {
+    /// A triangle names a vertex that is not there.
+    NoSuchVertex {
+        /// The triangle.
+        triangle: usize,
+        /// The vertex.
+        vertex: u32,
+    },
+    /// More triangles than the tree can number.
+    TooMany {
+        /// How many there are.
+        triangles: usize,
+    },
+}
+
+impl fmt::Display for MeshError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NoSuchVertex { triangle, vertex } => {
+                write!(f, "triangle {triangle} has vertex {vertex}, which is not there")
+            }
+            Self::TooMany { triangles } => {
+                write!(f, "{triangles} triangles are more than {}, the most there may be", crate::tree::MOST)
+            }
+        }
+    }
+}
+
+impl std::error::Error for MeshError {}
+
+/// Triangles that share vertices, in a tree.
+///
+/// Triangles with a coordinate that is no number, or infinite, are never hit.
+#[derive(Clone, Debug)]
+pub struct TriangleMesh {
+    tree: Tree,
+    blocks: Vec<Block>,
+}
+
+impl TriangleMesh {
+    /// Sorts triangles into a tree. The outcome is the same for any number of threads.
+    ///
+    /// # Errors
+    /// Where a triangle names a vertex that is not there, or where there are more than 2^27 triangles.
+    pub fn build(
+        vertices: &[[f32; 3]],
+        triangles: &[[u32; 3]],
+        options: &BuildOptions,
+    ) -> Result<Self, MeshError> {
+        if triangles.len() >= crate::tree::MOST {
+            return Err(MeshError::TooMany { triangles: triangles.len() });
+        }
+        let mut primitives = Vec::with_capacity(triangles.len());
+        for (number, triangle) in (0u32..).zip(triangles) {
+            let mut bounds = Bounds::EMPTY;
+            let mut finite = true;
+            for &vertex in triangle {
+                let Some(point) = vertices.get(vertex as usize) else {
+                    return Err(MeshError::NoSuchVertex { triangle: number as usize, vertex });
+                };
+                finite &= point.iter().all(|x| x.is_finite());
+                bounds = bounds.union(&Bounds { min: *point, max: *point });
+            }
+            if finite {
+                primitives.push(Primitive::new(&bounds, number));
+            }
+        }
+        let empty = Packed { vertices, triangles, blocks: Vec::new() };
+        let (tree, packed) = Builder::new(options).build(primitives, empty);
+        Ok(Self { tree, blocks: packed.blocks })
+    }
+
+    /// The box of all triangles.
+    #[must_use]
+    pub fn bounds(&self) -> &Bounds {
+        self.tree.bounds()
+    }
+
+    /// The tree's bytes, triangles included.
+    #[must_use]
+    pub fn bytes(&self) -> usize {
+        self.tree.bytes() + self.blocks.capacity() * size_of::<Block>()
+    }
+
+    /// How many nodes the tree has, and how many blocks of up to four triangles.
+    #[must_use]
+    pub fn counts(&self) -> (usize, usize) {
+        (self.tree.nodes(), self.blocks.len())
+    }
+
+    /// The nearest triangle that a ray meets; of two at the same distance, the one with the greater number.
+    #[inline(always)]
+    pub fn closest<S: Simd>(&self, simd: S, ray: &Ray, stack: &mut Stack) -> Option<Hit> {
+        let mut ray = *ray;
+        let mut leaves = MeshLeaves { blocks: &self.blocks, shear: Shear::new(&ray), hit: None };
+        self.tree.closest(simd, &mut ray, stack, &mut leaves);
+        leaves.hit
+    }
+
+    /// Whether a ray meets any triangle.
+    #[inline(always)]
+    pub fn any<S: Simd>(&self, simd: S, ray: &Ray, stack: &mut Stack) -> bool {
+        let mut leaves = MeshLeaves { blocks: &self.blocks, shear: Shear::new(ray), hit: None };
+        self.tree.any(simd, ray, stack, &mut leaves)
+    }
+
+    /// The nearest hit by trying every triangle: what [`Self::closest`] has to find.
+    #[must_use]
+    pub fn closest_of_all<S: Simd>(&self, simd: S, ray: &Ray) -> Option<Hit> {
+        let mut ray = *ray;
+        let mut leaves = MeshLeaves { blocks: &self.blocks, shear: Shear::new(&ray), hit: None };
+        leaves.closest(simd, &mut ray, 0..self.blocks.len());
+        leaves.hit
+    }
+}
+
+struct MeshLeaves<'a> {
+    blocks: &'a [Block],
+    shear: Shear,
+    hit: Option<Hit>,
+}
+
+impl Leaves for MeshLeaves<'_> {
+    #[inline(always)]
+    fn closest<S: Simd>(&mut self, simd: S, ray: &mut Ray, units: std::ops::Range<usize>) {
+        for block in &self.blocks[units] {
+            let found = hits(simd, block, &self.shear, ray.near, ray.far);
+            let mut mask = found.mask;
+            while mask != 0 {
+                let lane = (mask.trailing_zeros() & 3) as usize;
+                mask &= mask - 1;
+                let (distance, triangle) = (found.distance[lane], block.numbers[lane]);
+                let nearer = distance < ray.far
+                    || (distance == ray.far && self.hit.is_none_or(|hit| triangle > hit.triangle));
+                if nearer {
+                    ray.far = distance;
+                    let weights = [found.weights[0][lane], found.weights[1][lane]];
+                    self.hit = Some(Hit { distance, triangle, weights });
+                }
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn any<S: Simd>(&mut self, simd: S, ray: &Ray, units: std::ops::Range<usize>) -> bool {
+        self.blocks[units].iter().any(
+            #[inline(always)]
+            |block| hits(simd, block, &self.shear, ray.near, ray.far).mask != 0,
+        )
+    }
+}
+
+/// Packs the triangles of leaves into blocks.
+struct Packed<'a> {
+    vertices: &'a [[f32; 3]],
+    triangles: &'a [[u32; 3]],
+    blocks: Vec<Block>,
+}
+
+impl Store for Packed<'_> {
+    const UNIT: usize = 4;
+
+    fn empty(&self) -> Self {
+        Self { blocks: Vec::new(), ..*self }
+    }
+
+    fn len(&self) -> usize {
+        self.blocks.len()
+    }
+
+    fn push(&mut self, primitives: &[Primitive]) {
+        for chunk in primitives.chunks(4) {
+            let mut block = Block::EMPTY;
+            for (lane, primitive) in chunk.iter().enumerate() {
+                block.numbers[lane] = primitive.number;
+                for (corner, &vertex) in self.triangles[primitive.number as usize].iter().enumerate() {
+                    for axis in 0..3 {
+                        block.vertices[corner][axis][lane] = self.vertices[vertex as usize][axis];
+                    }
+                }
+            }
+            self.blocks.push(block);
+        }
+    }
+
+    fn append(&mut self, other: Self) {
+        self.blocks.extend(other.blocks);
+    }
+
+    fn finish(&mut self) {
+        self.blocks.shrink_to_fit();
+    }
+}

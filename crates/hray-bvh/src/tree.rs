@@ -1,0 +1,263 @@
+//! The tree, and the walk along a ray through it.
+
+use crate::{Bounds, Ray};
+use fearless_simd::f32x8;
+use fearless_simd::prelude::*;
+
+/// How many children a node has.
+pub(crate) const WIDTH: usize = 8;
+
+/// What of a child's reference says that it is a leaf.
+const LEAF: u32 = 1 << 31;
+/// Below it lie the number of units in a leaf, less one, and the first of them.
+const COUNT_SHIFT: u32 = 27;
+/// The most units in a leaf.
+pub(crate) const MOST_UNITS: usize = 16;
+/// The most units, or nodes, in a tree.
+pub(crate) const MOST: usize = 1 << COUNT_SHIFT;
+
+/// Eight boxes, and what is in them. Four cache lines.
+#[repr(C, align(64))]
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Node {
+    /// Least x, greatest x, least y, ...: so that a ray's direction picks the planes that it comes to first.
+    bounds: [[f32; WIDTH]; 6],
+    children: [u32; WIDTH],
+    /// Fills the last line.
+    _rest: [u32; WIDTH],
+}
+
+/// A child: a node, or a leaf's units.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Child(pub(crate) u32);
+
+impl Child {
+    pub(crate) fn node(index: usize) -> Self {
+        Self(index as u32)
+    }
+
+    pub(crate) fn leaf(first: usize, count: usize) -> Self {
+        Self(LEAF | ((count as u32 - 1) << COUNT_SHIFT) | first as u32)
+    }
+
+    /// Moved, where its nodes and units are put behind others.
+    pub(crate) fn moved(self, nodes: usize, units: usize) -> Self {
+        Self(self.0 + if self.is_leaf() { units as u32 } else { nodes as u32 })
+    }
+
+    #[inline(always)]
+    pub(crate) fn is_leaf(self) -> bool {
+        self.0 & LEAF != 0
+    }
+}
+
+impl Node {
+    /// No children: boxes that no ray meets.
+    pub(crate) const EMPTY: Self = Self {
+        bounds: [
+            [f32::INFINITY; WIDTH],
+            [f32::NEG_INFINITY; WIDTH],
+            [f32::INFINITY; WIDTH],
+            [f32::NEG_INFINITY; WIDTH],
+            [f32::INFINITY; WIDTH],
+            [f32::NEG_INFINITY; WIDTH],
+        ],
+        children: [0; WIDTH],
+        _rest: [0; WIDTH],
+    };
+
+    pub(crate) fn set(&mut self, slot: usize, bounds: &Bounds, child: Child) {
+        for axis in 0..3 {
+            self.bounds[2 * axis][slot] = bounds.min[axis];
+            self.bounds[2 * axis + 1][slot] = bounds.max[axis];
+        }
+        self.children[slot] = child.0;
+    }
+
+    /// Says where a child is, now that it is known.
+    pub(crate) fn point(&mut self, slot: usize, child: Child) {
+        self.children[slot] = child.0;
+    }
+
+    /// Moves all children behind others.
+    pub(crate) fn move_children(&mut self, nodes: usize, units: usize) {
+        for slot in 0..WIDTH {
+            if self.bounds[0][slot] <= self.bounds[1][slot] {
+                self.children[slot] = Child(self.children[slot]).moved(nodes, units).0;
+            }
+        }
+    }
+
+    /// Where a ray enters each child, and which it meets between `near` and `far`.
+    #[inline(always)]
+    fn enter<S: Simd>(&self, simd: S, ray: &Ray, far: f32) -> (f32x8<S>, u32) {
+        let [dx, dy, dz] = ray.down;
+        let [first, last] = ray.offset;
+        let x0 = plane(simd, &self.bounds[dx & 1], ray.inverse[0], first[0]);
+        let y0 = plane(simd, &self.bounds[2 + (dy & 1)], ray.inverse[1], first[1]);
+        let z0 = plane(simd, &self.bounds[4 + (dz & 1)], ray.inverse[2], first[2]);
+        let x1 = plane(simd, &self.bounds[1 - (dx & 1)], ray.inverse[0], last[0]);
+        let y1 = plane(simd, &self.bounds[3 - (dy & 1)], ray.inverse[1], last[1]);
+        let z1 = plane(simd, &self.bounds[5 - (dz & 1)], ray.inverse[2], last[2]);
+        let enter = x0.max(y0).max(z0.max(f32x8::splat(simd, ray.near)));
+        let leave = x1.min(y1).min(z1.min(f32x8::splat(simd, far)));
+        (enter, enter.simd_le(leave).to_bitmask() as u32)
+    }
+}
+
+/// Distances of planes. Whether the machine rounds once or twice makes no difference: the ray's slack covers both, and what
+/// leaves find decides.
+#[expect(clippy::disallowed_methods, reason = "culls only; no bit of a result depends on it")]
+#[inline(always)]
+fn plane<S: Simd>(simd: S, planes: &[f32; WIDTH], inverse: f32, offset: f32) -> f32x8<S> {
+    let planes: f32x8<S> = (*planes).simd_into(simd);
+    planes.mul_add(f32x8::splat(simd, inverse), f32x8::splat(simd, offset))
+}
+
+/// Tests what is in a leaf.
+pub trait Leaves {
+    /// Tests a leaf's units for the nearest hit, takes note of it, and shortens the ray (`ray.far`) to it. What lies as far
+    /// as `ray.far` counts.
+    fn closest<S: Simd>(&mut self, simd: S, ray: &mut Ray, units: std::ops::Range<usize>);
+
+    /// Whether the ray meets any of a leaf's units.
+    fn any<S: Simd>(&mut self, simd: S, ray: &Ray, units: std::ops::Range<usize>) -> bool;
+}
+
+/// What a walk has still to visit; made once for many rays.
+#[derive(Clone, Debug, Default)]
+pub struct Stack {
+    /// Distance and child, in one number that sorts by distance. Distances are not negative.
+    entries: Vec<u64>,
+}
+
+impl Stack {
+    /// Makes room for a tree.
+    #[inline(always)]
+    fn fit(&mut self, tree: &Tree) {
+        if self.entries.len() < tree.stack {
+            self.entries.resize(tree.stack, 0);
+        }
+    }
+}
+
+/// Of a distance; only a zero can have it.
+const SIGN: u32 = 1 << 31;
+
+#[inline(always)]
+fn entry(distance: f32, child: u32) -> u64 {
+    (u64::from(distance.to_bits() & !SIGN) << 32) | u64::from(child)
+}
+
+/// A tree of boxes of eight children.
+#[derive(Clone, Debug)]
+pub struct Tree {
+    pub(crate) nodes: Vec<Node>,
+    pub(crate) root: Option<Child>,
+    pub(crate) bounds: Bounds,
+    /// The most entries that a walk leaves for later.
+    pub(crate) stack: usize,
+}
+
+impl Tree {
+    /// The box of everything.
+    #[must_use]
+    pub fn bounds(&self) -> &Bounds {
+        &self.bounds
+    }
+
+    /// Its bytes.
+    #[must_use]
+    pub fn bytes(&self) -> usize {
+        self.nodes.capacity() * size_of::<Node>()
+    }
+
+    /// How many nodes there are.
+    #[must_use]
+    pub fn nodes(&self) -> usize {
+        self.nodes.len()
+    }
+
+    /// Visits leaves from the nearest on, until what remains is farther than `ray.far`. `ray.near` is not negative.
+    #[inline(always)]
+    pub fn closest<S: Simd>(&self, simd: S, ray: &mut Ray, stack: &mut Stack, leaves: &mut impl Leaves) {
+        self.walk(simd, ray, stack, |simd, ray, units| {
+            leaves.closest(simd, ray, units);
+            false
+        });
+    }
+
+    /// Whether a leaf says that the ray meets something of it.
+    #[inline(always)]
+    pub fn any<S: Simd>(&self, simd: S, ray: &Ray, stack: &mut Stack, leaves: &mut impl Leaves) -> bool {
+        let mut ray = *ray;
+        self.walk(simd, &mut ray, stack, |simd, ray, units| leaves.any(simd, ray, units))
+    }
+
+    /// The walk; `visit` says whether it is enough.
+    #[inline(always)]
+    fn walk<S: Simd>(
+        &self,
+        simd: S,
+        ray: &mut Ray,
+        stack: &mut Stack,
+        mut visit: impl FnMut(S, &mut Ray, std::ops::Range<usize>) -> bool,
+    ) -> bool {
+        let Some(root) = self.root else { return false };
+        stack.fit(self);
+        let entries = &mut stack.entries[..];
+        let mut top = 0;
+        let mut child = root.0;
+        loop {
+            if child & LEAF == 0 {
+                let node = &self.nodes[child as usize];
+                let (enter, mut met) = node.enter(simd, ray, ray.far);
+                if met != 0 {
+                    let slot = (met.trailing_zeros() & 7) as usize;
+                    met &= met - 1;
+                    child = node.children[slot];
+                    if met == 0 {
+                        continue;
+                    }
+                    let distances: [f32; WIDTH] = enter.into();
+                    let mut nearest = entry(distances[slot], child);
+                    let bottom = top;
+                    // Keeps those left for later in order, the nearest last: few are met, so insertion is quickest.
+                    while met != 0 {
+                        let slot = (met.trailing_zeros() & 7) as usize;
+                        met &= met - 1;
+                        let new = entry(distances[slot], node.children[slot]);
+                        let mut farther = nearest.max(new);
+                        nearest = nearest.min(new);
+                        let mut at = top;
+                        while at > bottom && entries[at - 1] < farther {
+                            entries[at] = entries[at - 1];
+                            at -= 1;
+                        }
+                        std::mem::swap(&mut entries[at], &mut farther);
+                        top += 1;
+                    }
+                    child = nearest as u32;
+                    continue;
+                }
+            } else {
+                let first = (child & (MOST as u32 - 1)) as usize;
+                let count = ((child & !LEAF) >> COUNT_SHIFT) as usize + 1;
+                if visit(simd, ray, first..first + count) {
+                    return true;
+                }
+            }
+            loop {
+                if top == 0 {
+                    return false;
+                }
+                top -= 1;
+                let next = entries[top];
+                if (next >> 32) as u32 <= ray.far.to_bits() {
+                    child = next as u32;
+                    break;
+                }
+            }
+        }
+    }
+}
