@@ -460,7 +460,7 @@ mod tests {
             let hits = contestant.tracer.hits(&[down(0.1), down(9.0)]);
             assert!((hits[0].t - 5.0).abs() < 0.3 && hits[0].triangle < 128, "{:?}", hits[0]);
             assert!(!hits[1].is_hit());
-            assert_eq!(contestant.tracer.tally(&[down(0.1), down(9.0)], true, 1).hits, 1);
+            assert_eq!(contestant.tracer.tally(&[down(0.1), down(9.0)], true, 1).0.hits, 1);
             assert!(contestant.peak >= contestant.kept && contestant.kept > Some(0));
         }
     }

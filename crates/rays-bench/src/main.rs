@@ -4,7 +4,7 @@
 
 use clap::Parser;
 use rays_bench::embree::Embree;
-use rays_bench::measure::{Contestant, Role, measure};
+use rays_bench::measure::{Clock, Contestant, Role, measure};
 use rays_bench::meshes::{Mesh, MeshName, TERRAIN_CELLS, bunny, terrain};
 use rays_bench::rays::{Kind, Rays};
 use rays_bench::{Result, ours, report};
@@ -27,6 +27,9 @@ struct Arguments {
     /// Interleaved runs of each tracer, of which the median is shown.
     #[arg(long, default_value_t = 5)]
     runs: usize,
+    /// The clock by which tracing is timed; `cpu` where other work disturbs the machine.
+    #[arg(long, value_enum, default_value_t = Clock::Wall)]
+    clock: Clock,
     /// The kinds of rays.
     #[arg(long, value_enum, value_delimiter = ',', default_values_t = Kind::ALL)]
     only: Vec<Kind>,
@@ -92,7 +95,9 @@ fn run(arguments: &Arguments) -> Result<()> {
             let rays = rays.get_or_insert_with(|| Rays::new(&mesh, |primary| first.tracer.hits(primary)));
             let kinds = arguments.only.iter();
             let results = kinds
-                .map(|&kind| (kind, measure(&contestants, rays, kind, threads, arguments.runs)))
+                .map(|&kind| {
+                    (kind, measure(&contestants, rays, kind, threads, arguments.runs, arguments.clock))
+                })
                 .collect();
             println!("\n{}", report::tables(&mesh, threads, arguments.runs, &contestants, &results));
         }

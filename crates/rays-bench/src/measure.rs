@@ -2,7 +2,18 @@
 
 use crate::rays::{Kind, Rays};
 use crate::trace::{Tally, Trace};
+use clap::ValueEnum;
 use std::time::Instant;
+
+/// What is taken for the time that tracing takes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Clock {
+    /// The time that passes.
+    Wall,
+    /// The time that the threads are on a processor, shared out among them: on a machine that has other work at the
+    /// same time, what would pass without it, nearly.
+    Cpu,
+}
 
 /// What a tracer is compared as.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -51,6 +62,7 @@ pub fn measure(
     kind: Kind,
     threads: usize,
     runs: usize,
+    clock: Clock,
 ) -> Vec<Series> {
     let rays = rays.of(kind);
     let series = |_: &Contestant| Series { rates: Vec::new(), tally: Tally::default() };
@@ -58,8 +70,13 @@ pub fn measure(
     for _ in 0..runs {
         for (contestant, series) in contestants.iter().zip(&mut all) {
             let start = Instant::now();
-            series.tally = contestant.tracer.tally(rays, kind.any_hit(), threads);
-            series.rates.push(rays.len() as f64 / start.elapsed().as_secs_f64());
+            let (tally, busy) = contestant.tracer.tally(rays, kind.any_hit(), threads);
+            let seconds = match clock {
+                Clock::Wall => start.elapsed().as_secs_f64(),
+                Clock::Cpu => busy.as_secs_f64() / threads as f64,
+            };
+            series.tally = tally;
+            series.rates.push(rays.len() as f64 / seconds);
         }
     }
     all

@@ -133,7 +133,7 @@ impl Rays {
             let (point, normal) = surface(mesh, &view, ray, hit);
             diffuse.extend((0..DIFFUSE_RAYS).map(|k| diffuse_ray(point, normal, pixel * DIFFUSE_RAYS + k)));
             let way = view.light - point;
-            shadow.push(Ray::new(point, way.normalize(), way.length()));
+            shadow.push(Ray::new(point, unit(way), way.length()));
         }
         let mut shuffled = diffuse.clone();
         shuffle(&mut shuffled);
@@ -155,20 +155,20 @@ impl Rays {
 /// A ray through the middle of each pixel, row by row from the top.
 #[must_use]
 pub fn primary(view: &View) -> Vec<Ray> {
-    let forward = (view.at - view.eye).normalize();
-    let side = forward.cross(DVec3::Y).normalize();
+    let forward = unit(view.at - view.eye);
+    let side = unit(forward.cross(DVec3::Y));
     let up = side.cross(forward);
     let extent = libm::tan(view.field.to_radians() / 2.0);
     let side_at = |i: u32| 2.0 * (f64::from(i) + 0.5) / f64::from(RESOLUTION) - 1.0;
     let pixels = (0..RESOLUTION).flat_map(|y| (0..RESOLUTION).map(move |x| (x, y)));
     let directions = pixels.map(|(x, y)| forward + side * side_at(x) * extent - up * side_at(y) * extent);
-    directions.map(|direction| Ray::new(view.eye, direction.normalize(), f64::INFINITY)).collect()
+    directions.map(|direction| Ray::new(view.eye, unit(direction), f64::INFINITY)).collect()
 }
 
 /// The point that a ray hits, moved off the surface a little, and the normal there on the side of the ray.
 fn surface(mesh: &Mesh, view: &View, ray: &Ray, hit: &Hit) -> (DVec3, DVec3) {
     let [a, b, c] = mesh.corners(hit.triangle);
-    let normal = (b - a).cross(c - a).normalize();
+    let normal = unit((b - a).cross(c - a));
     let normal = if normal.dot(ray.direction()) > 0.0 { -normal } else { normal };
     let offset = f64::from((1e-4 * view.diagonal) as f32);
     (ray.origin() + ray.direction() * f64::from(hit.t) + normal * offset, normal)
@@ -183,6 +183,11 @@ fn diffuse_ray(point: DVec3, normal: DVec3, number: u32) -> Ray {
     let local = DVec2::new(libm::cos(angle), libm::sin(angle)) * radius;
     let (tangent, bitangent) = frame(normal);
     Ray::new(point, tangent * local.x + bitangent * local.y + normal * (1.0 - r1).sqrt(), f64::INFINITY)
+}
+
+/// A vector divided by its length. (`glam` multiplies by the reciprocal, which is not the same double.)
+fn unit(v: DVec3) -> DVec3 {
+    v / v.length()
 }
 
 /// Two unit vectors at right angles to a unit vector and to each other.

@@ -106,12 +106,13 @@ mod tests {
     use crate::meshes::terrain;
     use crate::rays::Ray;
     use crate::trace::{Hit, Tally, Trace};
+    use std::time::Duration;
 
     struct Nothing;
 
     impl Trace for Nothing {
-        fn tally(&self, _: &[Ray], _: bool, _: usize) -> Tally {
-            Tally::default()
+        fn tally(&self, _: &[Ray], _: bool, _: usize) -> (Tally, Duration) {
+            Default::default()
         }
 
         fn hits(&self, _: &[Ray]) -> Vec<Hit> {

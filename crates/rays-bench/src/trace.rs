@@ -1,8 +1,10 @@
 //! Asking a tracer for many rays on several threads.
 
 use crate::rays::Ray;
+use cpu_time::ThreadTime;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::thread;
+use std::time::Duration;
 
 /// Rays that a thread takes at once.
 const CHUNK: usize = 4096;
@@ -57,36 +59,42 @@ pub struct Tally {
 /// Many rays for one tracer: the loop over them is compiled for each tracer, so that a ray costs no call through
 /// a table.
 pub trait Trace: Sync {
-    /// Traces all rays on `threads` threads, the caller's included, and adds up what they hit.
-    fn tally(&self, rays: &[Ray], any_hit: bool, threads: usize) -> Tally;
+    /// Traces all rays on `threads` threads, the caller's included; adds up what they hit, and how long the threads
+    /// were on a processor.
+    fn tally(&self, rays: &[Ray], any_hit: bool, threads: usize) -> (Tally, Duration);
 
     /// What each ray hits.
     fn hits(&self, rays: &[Ray]) -> Vec<Hit>;
 }
 
 impl<T: Tracer> Trace for T {
-    fn tally(&self, rays: &[Ray], any_hit: bool, threads: usize) -> Tally {
+    fn tally(&self, rays: &[Ray], any_hit: bool, threads: usize) -> (Tally, Duration) {
         let next = AtomicUsize::new(0);
         let work = || {
+            let clock = ThreadTime::now();
             let mut done = Vec::new();
             loop {
                 let start = next.fetch_add(CHUNK, Ordering::Relaxed);
-                let Some(rest) = rays.get(start..).filter(|rest| !rest.is_empty()) else { return done };
+                let Some(rest) = rays.get(start..).filter(|rest| !rest.is_empty()) else {
+                    return (done, clock.elapsed());
+                };
                 let chunk = &rest[..rest.len().min(CHUNK)];
                 done.push((start, if any_hit { any(self, chunk) } else { nearest(self, chunk) }));
             }
         };
-        let mut chunks = thread::scope(|scope| {
+        let (mut chunks, busy) = thread::scope(|scope| {
             let others: Vec<_> = (1..threads).map(|_| scope.spawn(work)).collect();
-            let mut chunks = work();
+            let (mut chunks, mut busy) = work();
             for other in others {
-                chunks.extend(other.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)));
+                let (more, also) = other.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic));
+                chunks.extend(more);
+                busy += also;
             }
-            chunks
+            (chunks, busy)
         });
         chunks.sort_unstable_by_key(|(start, _)| *start);
         let add = |a: Tally, b: Tally| Tally { hits: a.hits + b.hits, sum: a.sum + b.sum };
-        chunks.into_iter().map(|(_, tally)| tally).fold(Tally::default(), add)
+        (chunks.into_iter().map(|(_, tally)| tally).fold(Tally::default(), add), busy)
     }
 
     fn hits(&self, rays: &[Ray]) -> Vec<Hit> {
@@ -150,13 +158,13 @@ mod tests {
             tfar: f32::INFINITY,
         };
         let rays: Vec<Ray> = (0..50_000).map(ray).collect();
-        let expected = Thirds.tally(&rays, false, 1);
+        let expected = Thirds.tally(&rays, false, 1).0;
         let hits = Thirds.hits(&rays);
         assert_eq!(expected.hits, hits.iter().filter(|hit| hit.is_hit()).count() as u64);
         for threads in 2..5 {
-            assert_eq!(Thirds.tally(&rays, false, threads), expected);
-            assert_eq!(Thirds.tally(&rays, true, threads), Tally { sum: 0.0, ..expected });
+            assert_eq!(Thirds.tally(&rays, false, threads).0, expected);
+            assert_eq!(Thirds.tally(&rays, true, threads).0, Tally { sum: 0.0, ..expected });
         }
-        assert_eq!(Thirds.tally(&[], false, 2), Tally::default());
+        assert_eq!(Thirds.tally(&[], false, 2).0, Tally::default());
     }
 }
