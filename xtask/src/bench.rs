@@ -1,4 +1,4 @@
-//! Times the whole program on the classic scenes, beside the original's times.
+//! Times the whole program on the classic scenes, beside the original's times; and single rays, beside Embree's.
 
 use crate::{Result, build_hray};
 use std::path::{Path, PathBuf};
@@ -61,6 +61,20 @@ pub fn run(runs: usize) -> Result<()> {
     // Only a leftover in the folder for such; nothing depends on its removal.
     let _ = std::fs::remove_file(&output);
     Ok(())
+}
+
+/// Builds the benchmark of rays against meshes (`crates/rays-bench`) for release and runs it.
+///
+/// # Errors
+/// Where it does not build, or fails.
+pub fn rays(arguments: &[&str]) -> Result<()> {
+    let cargo = std::env::var("CARGO").unwrap_or_else(|_| "cargo".into());
+    let status = Command::new(cargo)
+        .args(["run", "--quiet", "--release", "--package", "rays-bench", "--"])
+        .args(arguments)
+        .status()
+        .map_err(|e| format!("cannot run cargo: {e}"))?;
+    if status.success() { Ok(()) } else { Err("the benchmark of rays failed".into()) }
 }
 
 fn time(hray: &Path, classic: &Path, name: &str, threads: &str, output: &Path) -> Result<Duration> {

@@ -8,7 +8,8 @@ const USAGE: &str = "usage: cargo xtask NAME
   tidy            checks that the documents name what exists and that crates depend as they may
   bless           renders examples/*.hry anew: pictures and hashes
   bench [N]       whole-process time of the classic scenes (folder in HRAY_CLASSIC), median of N runs
-                  each (default 9), beside the original's";
+                  each (default 9), beside the original's
+  bench rays ...  single rays against large meshes, beside Embree; `bench rays --help` says what it takes";
 
 fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
@@ -17,6 +18,7 @@ fn main() -> ExitCode {
         ["tidy"] => xtask::tidy::run(),
         ["bless"] => xtask::bless::run(),
         ["bench"] => xtask::bench::run(9),
+        ["bench", "rays", arguments @ ..] => xtask::bench::rays(arguments),
         ["bench", runs] => runs
             .parse()
             .ok()
