@@ -4,6 +4,7 @@
 //! What is cut where depends on the boxes alone; threads build disjoint parts, which are put together in order.
 
 use crate::Bounds;
+use crate::collapse::{Binary, Collapse};
 use crate::tree::{Child, MOST_UNITS, Node, Tree, WIDTH};
 use rayon::prelude::*;
 
@@ -173,7 +174,7 @@ impl Builder {
     pub(crate) fn build<S: Store>(&self, mut primitives: Vec<Primitive>, store: S) -> (Tree, S) {
         let extent = Extent::of(&primitives);
         let bounds = extent.bounds.bounds();
-        let mut tree = Tree { nodes: Vec::new(), root: None, bounds, stack: 1 };
+        let mut tree = Tree { nodes: Vec::new(), root: None, bounds, reach: bounds.reach(), stack: 1 };
         let mut all = store.empty();
         if primitives.is_empty() {
             return (tree, all);
@@ -193,8 +194,7 @@ impl Builder {
     fn part<S: Store>(&self, primitives: &mut [Primitive], set: Set, store: &S, depth: usize) -> Part<S> {
         let mut own = store.empty();
         if set.len() <= PARALLEL {
-            let mut nodes = Vec::new();
-            let depth = self.node(primitives, set, &mut nodes, &mut own, depth);
+            let (nodes, depth) = self.whole(primitives, set, &mut own);
             return Part::Whole { nodes, store: own, depth };
         }
         let sets = self.cut::<S>(primitives, set, depth);
@@ -221,31 +221,18 @@ impl Builder {
         Part::Forked { node, parts, store: own }
     }
 
-    /// Builds a set's node at the end of `nodes`, or its leaf if it is the whole tree's only one (then without a node). Returns
-    /// how deep it is.
-    fn node<S: Store>(
-        &self,
-        primitives: &mut [Primitive],
-        set: Set,
-        nodes: &mut Vec<Node>,
-        store: &mut S,
-        depth: usize,
-    ) -> usize {
-        let sets = self.cut::<S>(primitives, set, depth);
-        let index = nodes.len();
-        nodes.push(Node::EMPTY);
-        let mut deepest = 0;
-        for (slot, child) in sets.iter().enumerate() {
-            let reference = if child.is_leaf {
-                push(&primitives[child.start..child.end], store)
-            } else {
-                let reference = Child::node(nodes.len());
-                deepest = deepest.max(self.node(primitives, *child, nodes, store, depth + 1));
-                reference
-            };
-            nodes[index].set(slot, &child.extent.bounds.bounds(), reference);
-        }
-        deepest + 1
+    /// Builds a set's nodes, its own first. Returns how deep they go.
+    fn whole<S: Store>(&self, primitives: &mut [Primitive], set: Set, store: &mut S) -> (Vec<Node>, usize) {
+        let mut binary = Vec::with_capacity(set.len());
+        halve::<S>(primitives, set, &mut binary, 0);
+        let leaf = |count: usize| {
+            let units = count.div_ceil(S::UNIT);
+            (units <= MOST_UNITS).then_some(units as f32)
+        };
+        let collapse = Collapse::new(&binary, NODE_COST, leaf);
+        let mut nodes = Vec::with_capacity(binary.len() / 4);
+        let depth = emit(&binary, &collapse, 0, primitives, &mut nodes, store);
+        (nodes, depth)
     }
 
     /// Cuts a set into up to eight, in the order of their places.
@@ -271,6 +258,44 @@ impl Builder {
         }
         sets
     }
+}
+
+/// Cuts a set in two, and those again, as long as it can be done. Their nodes follow one upon the other.
+fn halve<S: Store>(primitives: &mut [Primitive], set: Set, nodes: &mut Vec<Binary>, depth: usize) -> usize {
+    let index = nodes.len();
+    let places = set.start..set.end;
+    nodes.push(Binary { bounds: set.extent.bounds.bounds(), places, children: None });
+    if let Some([left, right]) = split::<S>(primitives, &set, depth) {
+        let left = halve::<S>(primitives, left, nodes, depth + 1);
+        let right = halve::<S>(primitives, right, nodes, depth + 1);
+        nodes[index].children = Some([left, right]);
+    }
+    index
+}
+
+/// Makes a node of eight from one of two, and all below it. Returns how deep they go.
+fn emit<S: Store>(
+    binary: &[Binary],
+    collapse: &Collapse<'_>,
+    index: usize,
+    primitives: &[Primitive],
+    nodes: &mut Vec<Node>,
+    store: &mut S,
+) -> usize {
+    let place = nodes.len();
+    nodes.push(Node::EMPTY);
+    let mut deepest = 0;
+    for (slot, child) in collapse.children(index).into_iter().enumerate() {
+        let reference = if collapse.is_leaf(child) {
+            push(&primitives[binary[child].places.clone()], store)
+        } else {
+            let reference = Child::node(nodes.len());
+            deepest = deepest.max(emit(binary, collapse, child, primitives, nodes, store));
+            reference
+        };
+        nodes[place].set(slot, &binary[child].bounds, reference);
+    }
+    deepest + 1
 }
 
 fn push<S: Store>(primitives: &[Primitive], store: &mut S) -> Child {
@@ -410,16 +435,12 @@ fn split<S: Store>(primitives: &mut [Primitive], set: &Set, depth: usize) -> Opt
     let fits = count <= MOST_UNITS * S::UNIT;
     let ruler = Ruler::new(set);
     let best = if depth < DEEPEST { ruler.best::<S>(&ruler.count_all(here)) } else { None };
-    let Some((cost, axis, cut)) = best else {
+    let Some((_, axis, cut)) = best else {
         if fits {
             return None;
         }
         return Some(halves(here, set));
     };
-    let area = set.extent.bounds.bounds().half_area();
-    if fits && area * NODE_COST + cost >= area * count.div_ceil(S::UNIT) as f32 {
-        return None;
-    }
     let (mut left, mut right) = (Extent::EMPTY, Extent::EMPTY);
     let (mut low, mut high) = (0, here.len());
     while low < high {

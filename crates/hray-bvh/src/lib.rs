@@ -9,6 +9,7 @@
 
 mod bounds;
 mod build;
+mod collapse;
 mod mesh;
 mod ray;
 mod tree;

@@ -98,6 +98,13 @@ impl TriangleMesh {
         self.tree.bounds()
     }
 
+    /// The greatest coordinate, which rays want to know.
+    #[inline(always)]
+    #[must_use]
+    pub fn reach(&self) -> f32 {
+        self.tree.reach
+    }
+
     /// The tree's bytes, triangles included.
     #[must_use]
     pub fn bytes(&self) -> usize {

@@ -1,6 +1,7 @@
 //! A ray, made ready for boxes.
 
-use crate::Bounds;
+use fearless_simd::f32x4;
+use fearless_simd::prelude::*;
 
 /// How far, in units of the greatest coordinate involved, rounding may move the result of a leaf's test or of a box's. A leaf
 /// test rounds a dozen times (2^-24 each); the rest is margin for a ray that was rounded from doubles.
@@ -29,7 +30,7 @@ pub struct Ray {
 }
 
 impl Ray {
-    /// Makes a ray ready for things in `bounds`.
+    /// Makes a ray ready for boxes.
     ///
     /// Each axis' slab is widened by `SLACK` times the greatest coordinate in play: the reciprocal, the product and the sum
     /// that give the distance of a plane together move it by no more than a few units in the last place of that, and
@@ -37,25 +38,54 @@ impl Ray {
     /// farthest, the widening is at least the error of a distance that a leaf finds; so a box is never left out though a hit
     /// in it would count (compare Ize, Robust BVH Ray Traversal, JCGT 2013, who widens by units in the last place of the
     /// distance, for exact leaves).
+    ///
+    /// `reach` is the greatest coordinate of the things ([`Bounds::reach`](crate::Bounds::reach)).
     #[inline(always)]
     #[must_use]
-    pub fn new(origin: [f32; 3], direction: [f32; 3], near: f32, far: f32, bounds: &Bounds) -> Self {
-        let greatest = |v: [f32; 3]| v[0].abs().max(v[1].abs()).max(v[2].abs());
-        let slack = SLACK * (bounds.reach() + greatest(origin));
+    pub fn new<S: Simd>(
+        simd: S,
+        origin: [f32; 3],
+        direction: [f32; 3],
+        near: f32,
+        far: f32,
+        reach: f32,
+    ) -> Self {
+        let slack = SLACK * (reach + greatest(origin));
         let flattest = FLATTEST * greatest(direction);
-        let (mut inverse, mut offset, mut down) = ([0.0; 3], [[0.0; 3]; 2], [0; 3]);
-        for axis in 0..3 {
-            let d = direction[axis];
-            let d = if d.abs() < flattest { flattest.copysign(d) } else { d };
-            let inv = 1.0 / d;
-            let widen = (slack * inv).abs();
-            let centre = -origin[axis] * inv;
-            inverse[axis] = inv;
-            offset[0][axis] = centre - widen;
-            offset[1][axis] = centre + widen;
-            down[axis] = usize::from(inv < 0.0);
+        let along = [direction[0], direction[1], direction[2], 1.0].map(
+            #[inline(always)]
+            |d| if d.abs() < flattest { flattest.copysign(d) } else { d },
+        );
+        let from: f32x4<S> = [origin[0], origin[1], origin[2], 0.0].simd_into(simd);
+        let along: f32x4<S> = along.simd_into(simd);
+        let inverse = f32x4::splat(simd, 1.0) / along;
+        let centre = from * inverse;
+        let widen = inverse.abs() * slack;
+        let first = -(centre + widen);
+        let last = widen - centre;
+        let down = along.simd_lt(0.0).to_bitmask() as usize;
+        Self {
+            origin,
+            direction,
+            near,
+            // An endless distance would let that of a flat triangle pass.
+            far: far.min(f32::MAX),
+            inverse: three(inverse),
+            offset: [three(first), three(last)],
+            down: [down & 1, (down >> 1) & 1, (down >> 2) & 1],
         }
-        // An endless distance would let that of a flat triangle pass.
-        Self { origin, direction, near, far: far.min(f32::MAX), inverse, offset, down }
     }
+}
+
+#[inline(always)]
+fn three<S: Simd>(lanes: f32x4<S>) -> [f32; 3] {
+    let [x, y, z, _]: [f32; 4] = lanes.into();
+    [x, y, z]
+}
+
+/// The greatest magnitude of a component.
+#[inline(always)]
+fn greatest([x, y, z]: [f32; 3]) -> f32 {
+    let larger = if x.abs() > y.abs() { x.abs() } else { y.abs() };
+    if larger > z.abs() { larger } else { z.abs() }
 }

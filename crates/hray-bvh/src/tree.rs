@@ -155,6 +155,8 @@ pub struct Tree {
     pub(crate) nodes: Vec<Node>,
     pub(crate) root: Option<Child>,
     pub(crate) bounds: Bounds,
+    /// The greatest coordinate of these.
+    pub(crate) reach: f32,
     /// The most entries that a walk leaves for later.
     pub(crate) stack: usize,
 }

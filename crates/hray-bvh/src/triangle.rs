@@ -45,7 +45,7 @@ impl Shear {
             2
         };
         // No exchange where the direction is negative: both windings count, so the sign of the determinant does not matter.
-        let axes = [(last + 1) % 3, (last + 2) % 3, last];
+        let axes = [[1, 2, 0], [2, 0, 1], [0, 1, 2]][last];
         let [dx, dy, dz] = axes.map(|axis| ray.direction[axis]);
         Self { axes, origin: axes.map(|axis| ray.origin[axis]), shear: [dx / dz, dy / dz, 1.0 / dz] }
     }

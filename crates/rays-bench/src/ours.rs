@@ -22,6 +22,7 @@ pub fn build(mesh: &Mesh, threads: usize) -> Result<Vec<Contestant>> {
     let tree = tree.map_err(|error| error.to_string())?;
     let seconds = start.elapsed().as_secs_f64();
     let bytes = tree.bytes() as u64;
+    if std::env::var_os("HRAY_COUNTS").is_some() { eprintln!("{:?}", tree.counts()); }
     Ok(vec![Contestant {
         name: "hray".into(),
         role: Role::Ours,
@@ -65,7 +66,7 @@ impl Tracer for Ours {
 fn closest<S: Simd>(simd: S, tree: &TriangleMesh, rays: &[Ray], answers: &mut [Hit]) {
     let mut stack = Stack::default();
     for (answer, ray) in answers.iter_mut().zip(rays) {
-        let hit = tree.closest(simd, &ready(tree, ray), &mut stack);
+        let hit = tree.closest(simd, &ready(simd, tree, ray), &mut stack);
         *answer = hit.map_or(Hit::MISS, |hit| Hit { t: hit.distance, triangle: hit.triangle });
     }
 }
@@ -75,12 +76,12 @@ fn occluded<S: Simd>(simd: S, tree: &TriangleMesh, rays: &[Ray]) -> u64 {
     let mut stack = Stack::default();
     let mut count = 0;
     for ray in rays {
-        count += u64::from(tree.any(simd, &ready(tree, ray), &mut stack));
+        count += u64::from(tree.any(simd, &ready(simd, tree, ray), &mut stack));
     }
     count
 }
 
 #[inline(always)]
-fn ready(tree: &TriangleMesh, ray: &Ray) -> hray_bvh::Ray {
-    hray_bvh::Ray::new(ray.origin, ray.direction, ray.tnear, ray.tfar, tree.bounds())
+fn ready<S: Simd>(simd: S, tree: &TriangleMesh, ray: &Ray) -> hray_bvh::Ray {
+    hray_bvh::Ray::new(simd, ray.origin, ray.direction, ray.tnear, ray.tfar, tree.reach())
 }
