@@ -11,6 +11,7 @@ mod bounds;
 mod build;
 mod collapse;
 mod mesh;
+mod prefetch;
 mod ray;
 mod tree;
 mod triangle;

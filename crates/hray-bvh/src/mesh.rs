@@ -1,6 +1,7 @@
 //! A tree over triangles.
 
 use crate::build::{Builder, Primitive, Store};
+use crate::prefetch::prefetch;
 use crate::triangle::{Block, Shear, hits};
 use crate::{Bounds, BuildOptions, Leaves, Ray, Stack, Tree};
 use fearless_simd::prelude::*;
@@ -151,9 +152,16 @@ struct MeshLeaves<'a> {
 
 impl Leaves for MeshLeaves<'_> {
     #[inline(always)]
+    fn prefetch(&self, unit: usize) {
+        if let Some(block) = self.blocks.get(unit) {
+            prefetch(block);
+        }
+    }
+
+    #[inline(always)]
     fn closest<S: Simd>(&mut self, simd: S, ray: &mut Ray, units: std::ops::Range<usize>) {
         for block in &self.blocks[units] {
-            let found = hits(simd, block, &self.shear, ray.near, ray.far);
+            let Some(found) = hits(simd, block, &self.shear, ray.near, ray.far) else { continue };
             let mut mask = found.mask;
             while mask != 0 {
                 let lane = (mask.trailing_zeros() & 3) as usize;
@@ -174,7 +182,7 @@ impl Leaves for MeshLeaves<'_> {
     fn any<S: Simd>(&mut self, simd: S, ray: &Ray, units: std::ops::Range<usize>) -> bool {
         self.blocks[units].iter().any(
             #[inline(always)]
-            |block| hits(simd, block, &self.shear, ray.near, ray.far).mask != 0,
+            |block| hits(simd, block, &self.shear, ray.near, ray.far).is_some(),
         )
     }
 }

@@ -1,5 +1,6 @@
 //! The tree, and the walk along a ray through it.
 
+use crate::prefetch::prefetch;
 use crate::{Bounds, Ray};
 use fearless_simd::f32x8;
 use fearless_simd::prelude::*;
@@ -116,6 +117,9 @@ fn plane<S: Simd>(simd: S, planes: &[f32; WIDTH], inverse: f32, offset: f32) -> 
 
 /// Tests what is in a leaf.
 pub trait Leaves {
+    /// That a unit will be tested soon: it may be brought nearer.
+    fn prefetch(&self, unit: usize);
+
     /// Tests a leaf's units for the nearest hit, takes note of it, and shortens the ray (`ray.far`) to it. What lies as far
     /// as `ray.far` counts.
     fn closest<S: Simd>(&mut self, simd: S, ray: &mut Ray, units: std::ops::Range<usize>);
@@ -183,27 +187,51 @@ impl Tree {
     /// Visits leaves from the nearest on, until what remains is farther than `ray.far`. `ray.near` is not negative.
     #[inline(always)]
     pub fn closest<S: Simd>(&self, simd: S, ray: &mut Ray, stack: &mut Stack, leaves: &mut impl Leaves) {
-        self.walk(simd, ray, stack, |simd, ray, units| {
-            leaves.closest(simd, ray, units);
-            false
-        });
+        self.walk(
+            simd,
+            ray,
+            stack,
+            leaves,
+            #[inline(always)]
+            |simd, leaves, ray, units| {
+                leaves.closest(simd, ray, units);
+                false
+            },
+        );
     }
 
     /// Whether a leaf says that the ray meets something of it.
     #[inline(always)]
     pub fn any<S: Simd>(&self, simd: S, ray: &Ray, stack: &mut Stack, leaves: &mut impl Leaves) -> bool {
         let mut ray = *ray;
-        self.walk(simd, &mut ray, stack, |simd, ray, units| leaves.any(simd, ray, units))
+        self.walk(
+            simd,
+            &mut ray,
+            stack,
+            leaves,
+            #[inline(always)]
+            |simd, leaves, ray, units| leaves.any(simd, ray, units),
+        )
+    }
+
+    #[inline(always)]
+    fn prefetch(&self, child: u32, leaves: &impl Leaves) {
+        if child & LEAF != 0 {
+            leaves.prefetch((child & (MOST as u32 - 1)) as usize);
+        } else if let Some(node) = self.nodes.get(child as usize) {
+            prefetch(node);
+        }
     }
 
     /// The walk; `visit` says whether it is enough.
     #[inline(always)]
-    fn walk<S: Simd>(
+    fn walk<S: Simd, L: Leaves>(
         &self,
         simd: S,
         ray: &mut Ray,
         stack: &mut Stack,
-        mut visit: impl FnMut(S, &mut Ray, std::ops::Range<usize>) -> bool,
+        leaves: &mut L,
+        visit: impl Fn(S, &mut L, &mut Ray, std::ops::Range<usize>) -> bool,
     ) -> bool {
         let Some(root) = self.root else { return false };
         stack.fit(self);
@@ -221,6 +249,7 @@ impl Tree {
                     if met == 0 {
                         continue;
                     }
+                    self.prefetch(child, leaves);
                     let distances: [f32; WIDTH] = enter.into();
                     let mut nearest = entry(distances[slot], child);
                     let bottom = top;
@@ -228,6 +257,7 @@ impl Tree {
                     while met != 0 {
                         let slot = (met.trailing_zeros() & 7) as usize;
                         met &= met - 1;
+                        self.prefetch(node.children[slot], leaves);
                         let new = entry(distances[slot], node.children[slot]);
                         let mut farther = nearest.max(new);
                         nearest = nearest.min(new);
@@ -245,7 +275,7 @@ impl Tree {
             } else {
                 let first = (child & (MOST as u32 - 1)) as usize;
                 let count = ((child & !LEAF) >> COUNT_SHIFT) as usize + 1;
-                if visit(simd, ray, first..first + count) {
+                if visit(simd, leaves, ray, first..first + count) {
                     return true;
                 }
             }

@@ -51,17 +51,22 @@ impl Shear {
     }
 }
 
-/// What a ray meets in a block: distances, barycentric weights of the second and third vertex (all times `scale`), and which
-/// triangles are met.
+/// What a ray meets in a block: which triangles, at which distances, with which weights of the second and third vertex.
 pub(crate) struct BlockHits<S: Simd> {
     pub(crate) mask: u32,
     pub(crate) distance: f32x4<S>,
     pub(crate) weights: [f32x4<S>; 2],
 }
 
-/// Tests a block, for distances from `near` up to `far`, both included.
+/// Tests a block, for distances from `near` up to `far`, both included. Nothing where no triangle is met.
 #[inline(always)]
-pub(crate) fn hits<S: Simd>(simd: S, block: &Block, shear: &Shear, near: f32, far: f32) -> BlockHits<S> {
+pub(crate) fn hits<S: Simd>(
+    simd: S,
+    block: &Block,
+    shear: &Shear,
+    near: f32,
+    far: f32,
+) -> Option<BlockHits<S>> {
     let [kx, ky, kz] = shear.axes;
     let [sx, sy, sz] = shear.shear;
     let [ox, oy, oz] = shear.origin;
@@ -78,12 +83,16 @@ pub(crate) fn hits<S: Simd>(simd: S, block: &Block, shear: &Shear, near: f32, fa
     let zero = f32x4::splat(simd, 0.0);
     let inside = (u.simd_ge(zero) & v.simd_ge(zero) & w.simd_ge(zero))
         | (u.simd_le(zero) & v.simd_le(zero) & w.simd_le(zero));
+    if inside.to_bitmask() == 0 {
+        return None;
+    }
     let determinant = u + v + w;
     let scale = f32x4::splat(simd, 1.0) / determinant;
     let distance = (u * az + v * bz + w * cz) * sz * scale;
     // A flat triangle has a determinant of 0, and what is divided by it is no distance between the bounds.
     let mask = inside & distance.simd_ge(near) & distance.simd_le(far);
-    BlockHits { mask: mask.to_bitmask() as u32, distance, weights: [v * scale, w * scale] }
+    let mask = mask.to_bitmask() as u32;
+    (mask != 0).then_some(BlockHits { mask, distance, weights: [v * scale, w * scale] })
 }
 
 /// A coordinate of a block's vertices, from the ray's origin on.
