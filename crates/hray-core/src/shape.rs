@@ -1,6 +1,6 @@
 //! What can be hit.
 
-use crate::Primitive;
+use crate::{Mesh, Primitive};
 use glam::DVec3;
 use std::sync::Arc;
 
@@ -75,4 +75,6 @@ pub enum Shape {
     Cuboid(Cuboid),
     /// A solid made of two.
     Csg(Arc<Csg>),
+    /// Triangles, which other primitives may share.
+    Mesh(Arc<Mesh>),
 }

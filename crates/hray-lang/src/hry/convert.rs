@@ -241,7 +241,7 @@ fn object(primitive: &Primitive, materials: &Materials) -> Option<Node> {
                 ("material", material),
             ],
         ),
-        Shape::Cuboid(_) | Shape::Csg(_) => return None,
+        Shape::Cuboid(_) | Shape::Csg(_) | Shape::Mesh(_) => return None,
     })
 }
 

@@ -64,6 +64,9 @@ impl Geometry {
         let mut places = Places::default();
         let mut parts = 0;
         for primitive in primitives.iter().rev() {
+            if matches!(primitive.shape, Shape::Mesh(_)) {
+                continue;
+            }
             let first = geometry.shapes.len() as u32;
             if let Some(shape) = Prepared::new(&primitive.shape, integrator) {
                 let place = places.of(primitive.transform.as_ref(), &mut geometry.placements);

@@ -106,7 +106,7 @@ impl Prepared {
                 let nearest = if thesis { NEAREST } else { 0.0 };
                 Self::Cuboid { min: cuboid.min, max: cuboid.max, nearest }
             }
-            Shape::Csg(_) => return None,
+            Shape::Csg(_) | Shape::Mesh(_) => return None,
         })
     }
 

@@ -54,6 +54,21 @@ fn crossings(primitive: &Primitive, outer: DAffine3, origin: DVec3, direction: D
             all.extend(crossings(b, to_world, origin, direction));
             return all;
         }
+        // Each triangle by Cramer's rule.
+        Shape::Mesh(mesh) => {
+            let point = |vertex: u32| DVec3::from(mesh.positions()[vertex as usize].map(f64::from));
+            let mut found = Vec::new();
+            for triangle in mesh.triangles() {
+                let [a, b, c] = triangle.map(point);
+                let (across, up, normal) = (b - a, c - a, (b - a).cross(c - a));
+                let by = d.dot(normal);
+                let (v, w) = ((o - a).cross(d).dot(up) / -by, (o - a).cross(d).dot(across) / by);
+                if v >= 0.0 && w >= 0.0 && v + w <= 1.0 {
+                    found.push(((a - o).dot(normal) / by, normal));
+                }
+            }
+            found
+        }
         Shape::Sphere(sphere) => {
             let f = o - sphere.center;
             let (a, b, c) = (d.dot(d), 2.0 * f.dot(d), f.dot(f) - sphere.radius * sphere.radius);
@@ -101,6 +116,8 @@ fn is_inside(primitive: &Primitive, outer: DAffine3, point: DVec3) -> bool {
     match &primitive.shape {
         Shape::Sphere(sphere) => p.distance(sphere.center) < sphere.radius,
         Shape::Plane(plane) => plane.normal.dot(p) + plane.offset < 0.0,
+        // Meshes are not parts of solids.
+        Shape::Mesh(_) => false,
         Shape::Cuboid(cuboid) => p.cmpgt(cuboid.min).all() && p.cmplt(cuboid.max).all(),
         Shape::Csg(csg) => {
             let [a, b] = csg.operands.each_ref().map(|operand| is_inside(operand, to_world, point));

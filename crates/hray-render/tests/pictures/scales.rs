@@ -5,8 +5,8 @@ use crate::common::{
     NOTHING, colors, cuboid, description, glass, gray, matte, mirror, of, placed, plane, sphere, v,
 };
 use hray_core::{
-    Background, Camera, Csg, CsgOperation, DAffine3, DMat3, DVec3, Description, Light, Material, Primitive,
-    Rgb, Shape, Texture,
+    Background, Camera, Csg, CsgOperation, DAffine3, DMat3, DVec3, Description, Light, Material, Mesh,
+    Primitive, Rgb, Shape, Texture,
 };
 use std::sync::Arc;
 
@@ -17,6 +17,11 @@ fn scaled(shape: &Shape, s: f64) -> Shape {
         Shape::Sphere(a) => sphere(a.center * s, a.radius * s),
         Shape::Plane(a) => plane(a.normal, a.offset * s),
         Shape::Cuboid(a) => cuboid(a.min * s, a.max * s),
+        Shape::Mesh(mesh) => {
+            let positions = mesh.positions().iter().map(|p| p.map(|x| (f64::from(x) * s) as f32)).collect();
+            let scaled = Mesh::new(positions, mesh.triangles().to_vec()).unwrap();
+            Shape::Mesh(Arc::new(scaled.with_normals(mesh.normals().to_vec()).unwrap()))
+        }
         Shape::Csg(csg) => Shape::Csg(Arc::new(Csg {
             operation: csg.operation,
             operands: csg.operands.each_ref().map(|operand| primitive(operand, s)),
