@@ -6,7 +6,7 @@
 #![allow(unsafe_code, reason = "Embree is a C library; this file is the only one that calls it")]
 
 use crate::Result;
-use crate::measure::{Contestant, Role};
+use crate::measure::{Clock, Contestant, Role};
 use crate::meshes::Mesh;
 use crate::rays::Ray;
 use crate::trace::{Hit, Tracer};
@@ -16,7 +16,6 @@ use std::path::{Path, PathBuf};
 use std::ptr::null;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicI64, Ordering};
-use std::time::Instant;
 
 const INVALID_ID: u32 = u32::MAX;
 const GEOMETRY_TYPE_TRIANGLE: c_int = 0;
@@ -161,12 +160,12 @@ impl Embree {
         Ok(unsafe { (self.api.device_property)(device.handle, DEVICE_PROPERTY_VERSION) })
     }
 
-    /// Builds, on `threads` threads, the forms of Embree that take part: of medium quality, of high quality, and of
+    /// Builds, on `threads` threads and timed by `clock`, the forms of Embree that take part: of medium quality, of high quality, and of
     /// high quality with the robust test.
     ///
     /// # Errors
     /// Where Embree reports one.
-    pub fn build(self, mesh: &Mesh, threads: usize) -> Result<Vec<Contestant>> {
+    pub fn build(self, mesh: &Mesh, threads: usize, clock: Clock) -> Result<Vec<Contestant>> {
         let buffers = Arc::new(Buffers::new(mesh));
         let forms = [
             ("Embree medium", Role::Other, BUILD_QUALITY_MEDIUM, SCENE_FLAG_NONE),
@@ -175,9 +174,9 @@ impl Embree {
         ];
         let build = |(name, role, quality, flags): (&str, _, _, _)| {
             let device = Device::new(self.api, threads)?;
-            let start = Instant::now();
-            let scene = Scene::new(device, Arc::clone(&buffers), quality, flags)?;
-            let build = start.elapsed().as_secs_f64();
+            let (scene, build) =
+                clock.time(threads, || Scene::new(device, Arc::clone(&buffers), quality, flags));
+            let scene = scene?;
             let memory = &scene.device.memory;
             let [kept, peak] =
                 [&memory.now, &memory.peak].map(|bytes| u64::try_from(bytes.load(Ordering::Relaxed)).ok());
@@ -456,7 +455,7 @@ mod tests {
         let embree = Embree::load(Path::new(&path)).unwrap();
         assert!(embree.version().unwrap() >= 40_000);
         let down = |x| Ray { origin: [x, 5.0, 0.1], tnear: 0.0, direction: [0.0, -1.0, 0.0], tfar: 50.0 };
-        for contestant in embree.build(&terrain(8), 2).unwrap() {
+        for contestant in embree.build(&terrain(8), 2, Clock::Wall).unwrap() {
             let hits = contestant.tracer.hits(&[down(0.1), down(9.0)]);
             assert!((hits[0].t - 5.0).abs() < 0.3 && hits[0].triangle < 128, "{:?}", hits[0]);
             assert!(!hits[1].is_hit());

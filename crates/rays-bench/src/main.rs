@@ -27,7 +27,7 @@ struct Arguments {
     /// Interleaved runs of each tracer, of which the median is shown.
     #[arg(long, default_value_t = 5)]
     runs: usize,
-    /// The clock by which tracing is timed; `cpu` where other work disturbs the machine.
+    /// The clock by which building and tracing are timed; `cpu` where other work disturbs the machine.
     #[arg(long, value_enum, default_value_t = Clock::Wall)]
     clock: Clock,
     /// The kinds of rays.
@@ -72,6 +72,7 @@ fn run(arguments: &Arguments) -> Result<()> {
     if arguments.runs == 0 || arguments.threads.contains(&0) {
         return Err("there must be a run at least, and a thread".into());
     }
+    let clock = arguments.clock;
     let embree = arguments.embree.as_deref().map(Embree::load).transpose()?;
     match embree {
         Some(embree) => println!("Embree {}", embree.version()?),
@@ -87,19 +88,18 @@ fn run(arguments: &Arguments) -> Result<()> {
         };
         let mut rays = None;
         for &threads in &arguments.threads {
-            let mut contestants = embree.map_or(Ok(Vec::new()), |embree| embree.build(&mesh, threads))?;
-            contestants.extend(ours::build(&mesh, threads)?);
+            let mut contestants =
+                embree.map_or(Ok(Vec::new()), |embree| embree.build(&mesh, threads, clock))?;
+            contestants.extend(ours::build(&mesh, threads, clock)?);
             let Some(first) = reference(&contestants) else {
                 return Err("There is nobody to trace rays.".into());
             };
             let rays = rays.get_or_insert_with(|| Rays::new(&mesh, |primary| first.tracer.hits(primary)));
             let kinds = arguments.only.iter();
             let results = kinds
-                .map(|&kind| {
-                    (kind, measure(&contestants, rays, kind, threads, arguments.runs, arguments.clock))
-                })
+                .map(|&kind| (kind, measure(&contestants, rays, kind, threads, arguments.runs, clock)))
                 .collect();
-            println!("\n{}", report::tables(&mesh, threads, arguments.runs, &contestants, &results));
+            print!("\n{}", report::tables(&mesh, threads, arguments.runs, &contestants, &results));
         }
     }
     Ok(())

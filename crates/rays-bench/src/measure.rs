@@ -3,9 +3,10 @@
 use crate::rays::{Kind, Rays};
 use crate::trace::{Tally, Trace};
 use clap::ValueEnum;
+use cpu_time::ProcessTime;
 use std::time::Instant;
 
-/// What is taken for the time that tracing takes.
+/// What is taken for the time that something takes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum Clock {
     /// The time that passes.
@@ -13,6 +14,19 @@ pub enum Clock {
     /// The time that the threads are on a processor, shared out among them: on a machine that has other work at the
     /// same time, what would pass without it, nearly.
     Cpu,
+}
+
+impl Clock {
+    /// Does something on `threads` threads, and says how many seconds it took.
+    pub fn time<T>(self, threads: usize, work: impl FnOnce() -> T) -> (T, f64) {
+        let (wall, cpu) = (Instant::now(), ProcessTime::now());
+        let made = work();
+        let seconds = match self {
+            Self::Wall => wall.elapsed().as_secs_f64(),
+            Self::Cpu => cpu.elapsed().as_secs_f64() / threads as f64,
+        };
+        (made, seconds)
+    }
 }
 
 /// What a tracer is compared as.

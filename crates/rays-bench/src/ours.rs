@@ -1,32 +1,29 @@
 //! The tracers of this project: the one place to add one.
 
 use crate::Result;
-use crate::measure::{Contestant, Role};
+use crate::measure::{Clock, Contestant, Role};
 use crate::meshes::Mesh;
 use crate::rays::Ray;
 use crate::trace::{Hit, Tracer};
 use fearless_simd::{Level, dispatch, prelude::*};
 use hray_bvh::{BuildOptions, Stack, TriangleMesh};
-use std::time::Instant;
 
-/// Builds each of our tracers over the mesh on `threads` threads.
+/// Builds each of our tracers over the mesh on `threads` threads, timed by `clock`.
 ///
 /// # Errors
 /// Where a tracer cannot be built.
-pub fn build(mesh: &Mesh, threads: usize) -> Result<Vec<Contestant>> {
+pub fn build(mesh: &Mesh, threads: usize, clock: Clock) -> Result<Vec<Contestant>> {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
     let pool = pool.map_err(|error| format!("no threads to build with: {error}"))?;
-    let start = Instant::now();
     let options = BuildOptions::default();
-    let tree = pool.install(|| TriangleMesh::build(&mesh.vertices, &mesh.triangles, &options));
+    let (tree, time) = clock
+        .time(threads, || pool.install(|| TriangleMesh::build(&mesh.vertices, &mesh.triangles, &options)));
     let tree = tree.map_err(|error| error.to_string())?;
-    let seconds = start.elapsed().as_secs_f64();
     let bytes = tree.bytes() as u64;
-    if std::env::var_os("HRAY_COUNTS").is_some() { eprintln!("{:?}", tree.counts()); }
     Ok(vec![Contestant {
         name: "hray".into(),
         role: Role::Ours,
-        build: seconds,
+        build: time,
         kept: Some(bytes),
         peak: None,
         tracer: Box::new(Ours { tree, level: Level::new() }),
