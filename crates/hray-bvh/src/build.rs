@@ -50,6 +50,8 @@ impl Primitive {
 /// Where the things in leaves are kept, in units of up to `UNIT` things that are tested together.
 pub(crate) trait Store: Send + Sync + Sized {
     const UNIT: usize;
+    /// What a node costs, where a unit costs 1.
+    const NODE_COST: f32;
     /// One for a part of the tree.
     fn empty(&self) -> Self;
     /// How many units it has.
@@ -63,8 +65,6 @@ pub(crate) trait Store: Send + Sync + Sized {
 }
 
 const MOST_BINS: usize = 32;
-/// What a node costs, where a unit costs 1.
-const NODE_COST: f32 = 1.0;
 /// Sets of more things are built by several threads.
 const PARALLEL: usize = 1 << 13;
 /// Things that a thread bins at a time.
@@ -229,7 +229,7 @@ impl Builder {
             let units = count.div_ceil(S::UNIT);
             (units <= MOST_UNITS).then_some(units as f32)
         };
-        let collapse = Collapse::new(&binary, NODE_COST, leaf);
+        let collapse = Collapse::new(&binary, S::NODE_COST, leaf);
         let mut nodes = Vec::with_capacity(binary.len() / 4);
         let depth = emit(&binary, &collapse, 0, primitives, &mut nodes, store);
         (nodes, depth)

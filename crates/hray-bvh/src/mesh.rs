@@ -196,6 +196,7 @@ struct Packed<'a> {
 
 impl Store for Packed<'_> {
     const UNIT: usize = 4;
+    const NODE_COST: f32 = 1.0;
 
     fn empty(&self) -> Self {
         Self { blocks: Vec::new(), ..*self }

@@ -1,17 +1,18 @@
 //! The tree, and the walk along a ray through it.
 
 use crate::prefetch::prefetch;
-use crate::{Bounds, Ray};
-use fearless_simd::f32x8;
+use crate::build::{Builder, Primitive, Store};
+use crate::{Bounds, BuildOptions, Ray};
+use fearless_simd::{f32x8, mask32x8};
 use fearless_simd::prelude::*;
 
 /// How many children a node has.
 pub(crate) const WIDTH: usize = 8;
 
 /// What of a child's reference says that it is a leaf.
-const LEAF: u32 = 1 << 31;
+pub(crate) const LEAF: u32 = 1 << 31;
 /// Below it lie the number of units in a leaf, less one, and the first of them.
-const COUNT_SHIFT: u32 = 27;
+pub(crate) const COUNT_SHIFT: u32 = 27;
 /// The most units in a leaf.
 pub(crate) const MOST_UNITS: usize = 16;
 /// The most units, or nodes, in a tree.
@@ -80,6 +81,11 @@ impl Node {
         self.children[slot] = child.0;
     }
 
+    #[inline(always)]
+    pub(crate) fn child(&self, slot: usize) -> u32 {
+        self.children[slot]
+    }
+
     /// Moves all children behind others.
     pub(crate) fn move_children(&mut self, nodes: usize, units: usize) {
         for slot in 0..WIDTH {
@@ -91,7 +97,7 @@ impl Node {
 
     /// Where a ray enters each child, and which it meets between `near` and `far`.
     #[inline(always)]
-    fn enter<S: Simd>(&self, simd: S, ray: &Ray, far: f32) -> (f32x8<S>, u32) {
+    pub(crate) fn enter<S: Simd>(&self, simd: S, ray: &Ray, far: f32) -> (f32x8<S>, mask32x8<S>) {
         let [dx, dy, dz] = ray.down;
         let [first, last] = ray.offset;
         let x0 = plane(simd, &self.bounds[dx & 1], ray.inverse[0], first[0]);
@@ -102,7 +108,7 @@ impl Node {
         let z1 = plane(simd, &self.bounds[5 - (dz & 1)], ray.inverse[2], last[2]);
         let enter = x0.max(y0).max(z0.max(f32x8::splat(simd, ray.near)));
         let leave = x1.min(y1).min(z1.min(f32x8::splat(simd, far)));
-        (enter, enter.simd_le(leave).to_bitmask() as u32)
+        (enter, enter.simd_le(leave))
     }
 }
 
@@ -149,7 +155,7 @@ impl Stack {
 const SIGN: u32 = 1 << 31;
 
 #[inline(always)]
-fn entry(distance: f32, child: u32) -> u64 {
+pub(crate) fn entry(distance: f32, child: u32) -> u64 {
     (u64::from(distance.to_bits() & !SIGN) << 32) | u64::from(child)
 }
 
@@ -166,6 +172,22 @@ pub struct Tree {
 }
 
 impl Tree {
+    /// Sorts boxes into a tree, whose leaves are tested one thing at a time; and the numbers of the boxes, in the order in which
+    /// leaves count them. Empty boxes are left out.
+    #[must_use]
+    pub fn of_boxes(boxes: &[Bounds], options: &BuildOptions) -> (Self, Vec<u32>) {
+        let primitives = (0u32..).zip(boxes).filter(|(_, bounds)| !bounds.is_empty());
+        let primitives = primitives.map(|(number, bounds)| Primitive::new(bounds, number)).collect();
+        let (tree, Numbers(numbers)) = Builder::new(options).build(primitives, Numbers(Vec::new()));
+        (tree, numbers)
+    }
+
+    /// The greatest coordinate, which rays want to know.
+    #[must_use]
+    pub fn reach(&self) -> f32 {
+        self.reach
+    }
+
     /// The box of everything.
     #[must_use]
     pub fn bounds(&self) -> &Bounds {
@@ -241,7 +263,8 @@ impl Tree {
         loop {
             if child & LEAF == 0 {
                 let node = &self.nodes[child as usize];
-                let (enter, mut met) = node.enter(simd, ray, ray.far);
+                let (enter, met) = node.enter(simd, ray, ray.far);
+                let mut met = met.to_bitmask() as u32;
                 if met != 0 {
                     let slot = (met.trailing_zeros() & 7) as usize;
                     met &= met - 1;
@@ -291,5 +314,33 @@ impl Tree {
                 }
             }
         }
+    }
+}
+
+/// What is in the leaves of a tree of boxes.
+struct Numbers(Vec<u32>);
+
+impl Store for Numbers {
+    const UNIT: usize = 1;
+    const NODE_COST: f32 = 4.0;
+
+    fn empty(&self) -> Self {
+        Self(Vec::new())
+    }
+
+    fn len(&self) -> usize {
+        self.0.len()
+    }
+
+    fn push(&mut self, primitives: &[Primitive]) {
+        self.0.extend(primitives.iter().map(|primitive| primitive.number));
+    }
+
+    fn append(&mut self, other: Self) {
+        self.0.extend(other.0);
+    }
+
+    fn finish(&mut self) {
+        self.0.shrink_to_fit();
     }
 }
