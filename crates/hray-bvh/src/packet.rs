@@ -11,14 +11,17 @@ use std::ops::Range;
 /// The most rays of a packet.
 pub const MOST_RAYS: usize = 8;
 
-/// Tests what is in a leaf, for several rays.
-pub trait PacketLeaves {
-    /// Tests a leaf's units for the nearest hits, and shortens the rays (`far`) to them. Only the rays of `lanes` are known to
-    /// meet the leaf's box; others may be tested as well. What lies as far as `far` counts.
-    fn closest<S: Simd>(&mut self, simd: S, rays: &mut [Ray], lanes: u32, units: Range<usize>);
+/// Tests what is in a leaf for the nearest hits of several rays.
+pub trait ClosestLeaves<S: Simd> {
+    /// Tests a leaf's units, and shortens the rays (`far`) to what they meet. Only the rays of `lanes` are known to meet the
+    /// leaf's box; others may be tested as well. What lies as far as `far` counts.
+    fn closest(&mut self, simd: S, rays: &mut [Ray], lanes: u32, units: Range<usize>);
+}
 
+/// Tests what is in a leaf for any hits of several rays.
+pub trait AnyLeaves<S: Simd> {
     /// Which of the rays of `lanes` meet any of a leaf's units; others may be among them if they do.
-    fn any<S: Simd>(&mut self, simd: S, rays: &[Ray], lanes: u32, units: Range<usize>) -> u32;
+    fn any(&mut self, simd: S, rays: &[Ray], lanes: u32, units: Range<usize>) -> u32;
 }
 
 #[derive(Clone, Copy, Debug, Default)]
@@ -44,7 +47,7 @@ impl Tree {
         simd: S,
         rays: &mut [Ray],
         stack: &mut PacketStack,
-        leaves: &mut impl PacketLeaves,
+        leaves: &mut impl ClosestLeaves<S>,
     ) {
         self.walk_packet(
             simd,
@@ -65,7 +68,7 @@ impl Tree {
         simd: S,
         rays: &mut [Ray],
         stack: &mut PacketStack,
-        leaves: &mut impl PacketLeaves,
+        leaves: &mut impl AnyLeaves<S>,
     ) -> u32 {
         self.walk_packet(
             simd,
@@ -108,13 +111,13 @@ impl Tree {
                         let slot = (any.trailing_zeros() & 7) as usize;
                         any &= any - 1;
                         let reference = node.child(slot);
-                        if reference & LEAF == 0 {
-                            if let Some(node) = self.nodes.get(reference as usize) {
-                                prefetch(node);
-                            }
+                        // A leaf's number is that of no node.
+                        if let Some(node) = self.nodes.get(reference as usize) {
+                            prefetch(node);
                         }
                         let new = Entry { key: entry(distances[slot], reference), lanes: of_slot(met, slot) };
-                        let farther = if new.key < first.key { std::mem::replace(&mut first, new) } else { new };
+                        let farther =
+                            if new.key < first.key { std::mem::replace(&mut first, new) } else { new };
                         if farther.lanes == 0 {
                             continue;
                         }
@@ -200,7 +203,8 @@ mod tests {
     fn bits_are_gathered() {
         for met in [0u64, 1, 0x8040_2010_0804_0201, u64::MAX, 0x1234_5678_9ABC_DEF0, 0xFF00_0000_0000_0000] {
             for slot in 0..8 {
-                let expected = (0..8).map(|lane| ((met >> (8 * lane + slot) & 1) as u32) << lane).sum::<u32>();
+                let expected =
+                    (0..8).map(|lane| ((met >> (8 * lane + slot) & 1) as u32) << lane).sum::<u32>();
                 assert_eq!(of_slot(met, slot), expected, "{met:x} {slot}");
             }
             assert_eq!(fold(met), met.to_le_bytes().iter().fold(0, |a, b| a | u32::from(*b)));

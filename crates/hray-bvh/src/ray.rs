@@ -30,6 +30,17 @@ pub struct Ray {
 }
 
 impl Ray {
+    /// One that meets nothing.
+    pub const NOWHERE: Self = Self {
+        origin: [0.0; 3],
+        direction: [0.0; 3],
+        near: 1.0,
+        far: 0.0,
+        inverse: [0.0; 3],
+        offset: [[0.0; 3]; 2],
+        down: [0; 3],
+    };
+
     /// Makes a ray ready for boxes.
     ///
     /// Each axis' slab is widened by `SLACK` times the greatest coordinate in play: the reciprocal, the product and the sum
@@ -38,6 +49,8 @@ impl Ray {
     /// farthest, the widening is at least the error of a distance that a leaf finds; so a box is never left out though a hit
     /// in it would count (compare Ize, Robust BVH Ray Traversal, JCGT 2013, who widens by units in the last place of the
     /// distance, for exact leaves).
+    ///
+    /// Where the numbers leave the range of single precision, the ray meets nothing ([`Ray::is_sane`]).
     ///
     /// `reach` is the greatest coordinate of the things ([`Bounds::reach`](crate::Bounds::reach)).
     #[inline(always)]
@@ -63,17 +76,28 @@ impl Ray {
         let widen = inverse.abs() * slack;
         let first = -(centre + widen);
         let last = widen - centre;
+        // What is no number would meet even the boxes of nothing.
+        let sane = (first.abs() + last.abs()).simd_lt(f32::INFINITY).all_true();
         let down = along.simd_lt(0.0).to_bitmask() as usize;
         Self {
             origin,
             direction,
             near,
             // An endless distance would let that of a flat triangle pass.
-            far: far.min(f32::MAX),
+            far: if sane { far.min(f32::MAX) } else { f32::NEG_INFINITY },
             inverse: three(inverse),
             offset: [three(first), three(last)],
             down: [down & 1, (down >> 1) & 1, (down >> 2) & 1],
         }
+    }
+}
+
+impl Ray {
+    /// Whether the ray is one that can meet anything: its numbers are in the range of single precision.
+    #[inline(always)]
+    #[must_use]
+    pub fn is_sane(&self) -> bool {
+        self.far > f32::NEG_INFINITY
     }
 }
 

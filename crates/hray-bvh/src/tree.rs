@@ -1,10 +1,10 @@
 //! The tree, and the walk along a ray through it.
 
-use crate::prefetch::prefetch;
 use crate::build::{Builder, Primitive, Store};
+use crate::prefetch::prefetch;
 use crate::{Bounds, BuildOptions, Ray};
-use fearless_simd::{f32x8, mask32x8};
 use fearless_simd::prelude::*;
+use fearless_simd::{f32x8, mask32x8};
 
 /// How many children a node has.
 pub(crate) const WIDTH: usize = 8;

@@ -79,8 +79,9 @@ pub(super) struct Frame {
     pub(super) behind: Columns<3>,
     /// Where the colour of each ray goes in the hits of the frame above.
     pub(super) parent: Vec<u32>,
-    /// Distance to the nearest hit, and its leaf, counted from [`NOTHING`].
-    pub(super) nearest: Columns<2>,
+    /// Distance to the nearest hit, its leaf, counted from [`NOTHING`],
+    /// and, where that is a mesh, the triangle.
+    pub(super) nearest: Columns<3>,
     pub(super) color: Columns<3>,
 
     pub(super) groups: Vec<Group>,
@@ -97,6 +98,8 @@ pub(super) struct Frame {
     pub(super) hit_object: Columns<3>,
     /// Where functions ask for them: the surface parameters.
     pub(super) hit_uv: Columns<2>,
+    /// Where there are meshes: the outward unit normal to shade with, and how shadow rays are lifted off the triangles.
+    pub(super) hit_smooth: Columns<6>,
     /// Where functions are evaluated: what they give.
     pub(super) fields: Columns<FIELDS>,
 }
@@ -108,6 +111,7 @@ pub(super) struct Uses {
     pub(super) object: bool,
     pub(super) uv: bool,
     pub(super) fields: bool,
+    pub(super) smooth: bool,
 }
 
 impl Frame {
@@ -131,6 +135,7 @@ impl Frame {
             hit_side: Columns::new(),
             hit_object: Columns::new(),
             hit_uv: Columns::new(),
+            hit_smooth: Columns::new(),
             fields: Columns::new(),
         }
     }
@@ -214,6 +219,9 @@ impl Frame {
         }
         if uses.uv {
             self.hit_uv.reserve(len);
+        }
+        if uses.smooth {
+            self.hit_smooth.reserve(len);
         }
         if uses.fields {
             self.fields.reserve(len);

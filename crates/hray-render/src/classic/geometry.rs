@@ -1,11 +1,14 @@
 //! Everything that can be hit, laid out for rays.
 
+use super::accelerate::{Accelerated, accelerate};
 use super::material::Materials;
+use super::mesh::PreparedMesh;
 use super::placement::Placement;
 use super::shapes::Prepared;
 use super::solid::{Node, Ray, Solid, interval};
 use hray_core::{Csg, CsgOperation, DAffine3, Integrator, Primitive, Shape};
 use std::collections::HashMap;
+use std::collections::hash_map::Entry;
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -33,6 +36,8 @@ pub(super) enum Root {
     /// Leaves with a placement.
     Placed(Range<u32>),
     Solid(u32),
+    /// A leaf that is a mesh.
+    Mesh(u32),
 }
 
 /// All leaves, and how they make what is hit.
@@ -42,6 +47,8 @@ pub(super) struct Geometry {
     placements: Vec<Placement>,
     solids: Vec<Solid>,
     pub(super) roots: Vec<Root>,
+    /// What is bounded, if there is enough of it: then `roots` are all others.
+    pub(super) tree: Option<Accelerated>,
     /// A hit must be farther away than this.
     pub(super) nearest: f64,
 }
@@ -59,16 +66,28 @@ impl Geometry {
             placements: Vec::new(),
             solids: Vec::new(),
             roots: Vec::new(),
+            tree: None,
             nearest: if thesis { super::shapes::NEAREST } else { 0.0 },
         };
         let mut places = Places::default();
         let mut parts = 0;
+        let mut meshes = HashMap::new();
         for primitive in primitives.iter().rev() {
-            if matches!(primitive.shape, Shape::Mesh(_)) {
-                continue;
-            }
             let first = geometry.shapes.len() as u32;
-            if let Some(shape) = Prepared::new(&primitive.shape, integrator) {
+            if let Shape::Mesh(mesh) = &primitive.shape {
+                // The scene keeps its meshes, so the address stays this one's.
+                let prepared: &mut Arc<PreparedMesh> = match meshes.entry(Arc::as_ptr(mesh).addr()) {
+                    Entry::Occupied(known) => known.into_mut(),
+                    Entry::Vacant(new) => {
+                        let prepared = PreparedMesh::new(mesh.clone()).map_err(|_| TooManyParts)?;
+                        new.insert(Arc::new(prepared))
+                    }
+                };
+                let place = places.of(primitive.transform.as_ref(), &mut geometry.placements);
+                let leaf = Leaf { material: materials.of(&primitive.material), place: place << 1 };
+                geometry.roots.push(Root::Mesh(first));
+                geometry.add_leaf(Prepared::Mesh(prepared.clone()), leaf);
+            } else if let Some(shape) = Prepared::new(&primitive.shape, integrator) {
                 let place = places.of(primitive.transform.as_ref(), &mut geometry.placements);
                 let leaf = Leaf { material: materials.of(&primitive.material), place: place << 1 };
                 geometry.add_leaf(shape, leaf);
@@ -83,6 +102,7 @@ impl Geometry {
                 geometry.solids.push(solid);
             }
         }
+        accelerate(&mut geometry);
         Ok(geometry)
     }
 
@@ -151,6 +171,16 @@ impl Geometry {
         Ok(Solid { first, leaves: leaves.into(), nodes: nodes.into() })
     }
 
+    /// Whether any leaf is a mesh.
+    pub(super) fn has_meshes(&self) -> bool {
+        self.shapes.iter().any(|shape| matches!(shape, Prepared::Mesh(_)))
+    }
+
+    /// Whether a leaf is a mesh with normals to shade with.
+    pub(super) fn is_smooth(&self, leaf: usize) -> bool {
+        matches!(&self.shapes[leaf], Prepared::Mesh(mesh) if mesh.is_smooth())
+    }
+
     /// What the leaves take.
     #[cfg(test)]
     pub(super) fn bytes(&self) -> usize {
@@ -192,6 +222,12 @@ impl Geometry {
     /// Whether the surface is that of something cut away.
     pub(super) fn is_turned(&self, leaf: usize) -> bool {
         self.leaves[leaf].place & 1 == 1
+    }
+
+    /// A ray in a leaf's own space.
+    #[inline(always)]
+    pub(super) fn own_ray(&self, leaf: usize, ray: &Ray) -> Ray {
+        self.placement(leaf).map_or(*ray, |placement| placement.ray(ray))
     }
 
     /// The distances between which a ray is inside a leaf.

@@ -61,6 +61,11 @@ pub(super) fn shade<S: Simd>(
             let direction = Vec3::load(simd, frame.hit_direction.get(), i);
             let object = if placed { Vec3::load(simd, frame.hit_object.get(), i) } else { point };
             let geometric = normal;
+            let smooth = scene.geometry.is_smooth(group.leaf);
+            if smooth {
+                let [x, y, z, ..] = frame.hit_smooth.get();
+                normal = Vec3::load(simd, [x, y, z], i);
+            }
             if material.has_bumps {
                 normal = tilted(simd, &scene.geometry, fields, leaf, i, normal);
             }
@@ -69,8 +74,12 @@ pub(super) fn shade<S: Simd>(
                 (point, normal) = (side.clear_of(point), normal.scale(side.outside));
                 side.store(&mut frame.hit_side, i);
             }
-            if scene.exact || material.has_bumps {
+            if scene.exact || smooth || material.has_bumps {
                 normal.store(frame.hit_normal.get_mut(), i);
+            }
+            if smooth {
+                let [_, _, _, x, y, z] = frame.hit_smooth.get();
+                point = point.add(Vec3::load(simd, [x, y, z], i));
             }
             let hits = Hits { point, object, normal, direction, place: i };
             let color = light(simd, &shared, &hits, walk, control);

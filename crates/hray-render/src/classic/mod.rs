@@ -10,12 +10,14 @@
 //! off ([`shapes::Surface::bound`]; after M. Pharr, W. Jakob and G. Humphreys, "Physically Based Rendering", 4th
 //! edition, § 6.8), rays that leave it start beyond that, and whatever lies ahead of them counts.
 
+mod accelerate;
 mod camera;
 mod evaluate;
 mod frame;
 mod geometry;
 mod light;
 mod material;
+mod mesh;
 mod placement;
 mod plans;
 mod shapes;
@@ -113,6 +115,7 @@ impl Integrator {
         let geometry = Geometry::new(&scene.primitives, description.integrator, &mut materials)?;
         let uv = materials.plans.use_uv;
         let fields = !materials.plans.is_empty();
+        let meshes = geometry.has_meshes();
         let noisy = geometry.is_placed() && materials.list.iter().any(Material::uses_noise);
         let background = match &scene.background {
             hray_core::Background::Uniform(color) => Surroundings::Uniform(*color),
@@ -130,7 +133,7 @@ impl Integrator {
             view: View::new(&scene.camera),
             time: scene.time,
             exact,
-            uses: Uses { sides: exact, object: fields || noisy, uv, fields },
+            uses: Uses { sides: exact, object: fields || noisy, uv, fields, smooth: meshes },
             noise: Noise::new(tables),
             level: Level::new(),
         })
@@ -151,8 +154,8 @@ impl Integrator {
     /// only where the recursion is thousands of levels deep.
     pub(crate) fn most_threads(&self, max_depth: i32) -> usize {
         let levels = usize::try_from(max_depth).unwrap_or(0) + 1;
-        let Uses { sides, object, uv, fields } = self.uses;
-        let used = [(sides, 5), (object, 3), (uv, 2), (fields, material::FIELDS)];
+        let Uses { sides, object, uv, fields, smooth } = self.uses;
+        let used = [(sides, 5), (object, 3), (uv, 2), (smooth, 6), (fields, material::FIELDS)];
         let columns: usize = used.iter().filter(|(used, _)| *used).map(|(_, columns)| columns).sum();
         let per_ray = BYTES_PER_RAY + columns * BYTES_PER_COLUMN;
         let worst = levels * (Self::batch(max_depth) * per_ray + BYTES_PER_FRAME);

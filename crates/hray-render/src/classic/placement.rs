@@ -38,6 +38,20 @@ impl Placement {
         Ray { origin: turn(ray.origin) + t, direction: turn(ray.direction) }
     }
 
+    /// The corners of a box with sides along the world's axes around the image of one with sides along the object's.
+    pub(super) fn box_to_world(&self, min: DVec3, max: DVec3) -> [DVec3; 2] {
+        let (center, half) = ((min + max) * 0.5, (max - min) * 0.5);
+        let DMat3 { x_axis, y_axis, z_axis } = self.to_world.matrix3;
+        let half = x_axis.abs() * half.x + y_axis.abs() * half.y + z_axis.abs() * half.z;
+        let center = self.to_world.transform_point3(center);
+        [center - half, center + half]
+    }
+
+    /// A direction or a difference of points of object space in the world.
+    pub(super) fn vector_to_world(&self, v: DVec3) -> DVec3 {
+        self.to_world.transform_vector3(v)
+    }
+
     /// A point of object space in the world.
     #[inline(always)]
     pub(super) fn to_world<S: Simd>(&self, simd: S, p: Vec3<S>) -> Vec3<S> {

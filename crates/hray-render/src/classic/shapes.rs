@@ -4,10 +4,12 @@
 //! constants. The exact ones have none: every hit in front of the ray counts, and where a ray that leaves a surface
 //! starts is kept clear of it by [`Surface::bound`].
 
+use super::mesh::PreparedMesh;
 use super::placement::size;
 use fearless_simd::prelude::*;
 use hray_core::{DVec3, Integrator, Shape};
 use hray_expr::kernels::lanes::{Lanes, Mask, Vec3};
+use std::sync::Arc;
 
 /// The thesis' least distance of a hit (`fstPos`); it keeps a ray from hitting the spot it starts at.
 pub(super) const NEAREST: f64 = 1e-6;
@@ -19,7 +21,7 @@ pub(super) const PARALLEL: f64 = 1e-9;
 pub(super) const BOUND: f64 = 16.0 * f64::EPSILON;
 
 /// A shape with what can be computed once.
-#[derive(Clone, Copy)]
+#[derive(Clone)]
 pub(super) enum Prepared {
     /// The thesis'.
     Sphere {
@@ -48,6 +50,8 @@ pub(super) enum Prepared {
         max: DVec3,
         nearest: f64,
     },
+    /// Rays go through its own tree, one at a time, and not by [`Prepared::hit`].
+    Mesh(Arc<PreparedMesh>),
 }
 
 /// Rays, one per lane, with what every sphere needs of them.
@@ -182,7 +186,7 @@ impl Prepared {
                 let met = enter.simd_le(exit) & distance.simd_gt(nearest);
                 Some((distance, met & distance.simd_lt(f64::INFINITY)))
             }
-            Self::Sphere { .. } | Self::Plane { .. } => None,
+            Self::Sphere { .. } | Self::Plane { .. } | Self::Mesh(_) => None,
         }
     }
 
@@ -227,8 +231,8 @@ impl Prepared {
                 Surface { point, normal, bound: bound(size(normal).dot(size(point)) + offset.abs()) }
             }
             Self::Cuboid { min, max, .. } => cuboid_surface(simd, min, max, rays, distance, point),
-            // The thesis' have no use for it.
-            Self::Sphere { .. } | Self::Plane { .. } => {
+            // The thesis' have no use for it, and a mesh's hits are located by itself.
+            Self::Sphere { .. } | Self::Plane { .. } | Self::Mesh(_) => {
                 Surface { point, normal: point, bound: Lanes::<S>::splat(simd, 0.0) }
             }
         }

@@ -10,6 +10,7 @@
 
 use super::geometry::Geometry;
 use super::shapes::{PARALLEL, Prepared};
+use hray_bvh::{PacketStack, Stack};
 use hray_core::{CsgOperation, DVec3};
 
 /// One ray.
@@ -43,6 +44,10 @@ pub(super) struct Node {
 pub(super) struct Walk {
     inside: Vec<bool>,
     ends: Vec<End>,
+    /// In the tree over everything.
+    pub(super) packets: PacketStack,
+    /// In a mesh's tree.
+    pub(super) stack: Stack,
 }
 
 /// Where a ray enters or leaves a leaf.
@@ -57,7 +62,7 @@ impl Solid {
     /// The nearest distance beyond `geometry.nearest` at which a ray meets the surface, and the leaf that it
     /// belongs to there. Of several leaves in the same place, the one that is written last.
     pub(super) fn hit(&self, geometry: &Geometry, ray: &Ray, walk: &mut Walk) -> Option<(f64, usize)> {
-        let Walk { inside, ends } = walk;
+        let Walk { inside, ends, .. } = walk;
         inside.clear();
         inside.resize(self.nodes.len(), false);
         ends.clear();
@@ -184,6 +189,8 @@ pub(super) fn interval(shape: &Prepared, ray: &Ray) -> [f64; 2] {
             }
             [enter, exit]
         }
+        // Not a part of solids.
+        Prepared::Mesh(_) => nowhere,
     }
 }
 

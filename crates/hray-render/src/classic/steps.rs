@@ -3,16 +3,17 @@
 use super::Integrator;
 use super::frame::{Background, Frame, Group, NOTHING};
 use super::geometry::Geometry;
-use super::material::{BUMP, FIELDS, Material, Number};
-use super::placement::size;
-use super::shapes::{BOUND, Rays};
+use super::material::{BUMP, FIELDS, Number};
+use super::mesh::PreparedMesh;
+use super::placement::{Placement, size};
+use super::shapes::{BOUND, Prepared, Rays};
 use super::solid::Walk;
-use super::trace::nearest;
+use super::trace::{nearest, ray_of};
 use super::uv::uv;
 use crate::Control;
 use fearless_simd::prelude::*;
 use hray_core::DVec3;
-use hray_expr::kernels::lanes::{Lanes, Vec3, consecutive, gather};
+use hray_expr::kernels::lanes::{Lanes, MAX_LANES, Vec3, consecutive, gather};
 
 /// The places at which vectors start in `len` entries from `start`.
 #[inline(always)]
@@ -60,9 +61,10 @@ pub(super) fn intersect<S: Simd>(
         let origin = Vec3::load(simd, frame.origin.get(), i);
         let direction = Vec3::load(simd, frame.direction.get(), i);
         let found = nearest(simd, geometry, &Rays::new(origin, direction), NOTHING, walk);
-        let [distances, leaves] = frame.nearest.get_mut();
+        let [distances, leaves, triangles] = frame.nearest.get_mut();
         found.distance.store_slice(&mut distances[i..i + Lanes::<S>::LEN]);
         found.leaf.store_slice(&mut leaves[i..i + Lanes::<S>::LEN]);
+        found.triangle.store_slice(&mut triangles[i..i + Lanes::<S>::LEN]);
     }
 }
 
@@ -77,6 +79,7 @@ pub(super) fn locate<S: Simd>(simd: S, scene: &Integrator, frame: &mut Frame) {
             || geometry.placement(group.leaf).is_some()
             || geometry.is_turned(group.leaf)
             || scene.uses.object
+            || scene.uses.smooth
             || scene.uses.uv;
         for i in places::<S>(group.start, group.len) {
             let slots = &frame.slot[i..i + Lanes::<S>::LEN];
@@ -114,7 +117,9 @@ fn locate_special<S: Simd>(
     let geometry = &scene.geometry;
     let (shape, placement) = (geometry.shape(group.leaf), geometry.placement(group.leaf));
     let own = placement.map_or(*rays, |placement| placement.rays(simd, rays));
-    let (object, own_normal, bound) = if scene.exact {
+    let (object, own_normal, bound) = if let Prepared::Mesh(mesh) = shape {
+        locate_mesh(simd, scene, mesh, frame, group, i, &own)
+    } else if scene.exact {
         let surface = shape.surface(simd, &own, distance);
         (surface.point, surface.normal, surface.bound)
     } else {
@@ -133,6 +138,9 @@ fn locate_special<S: Simd>(
             point = rays.origin.add(rays.direction.scale(distance));
             normal = normal.norm(simd).0;
         }
+        if geometry.is_smooth(group.leaf) {
+            smooth_to_world(simd, placement, frame, i);
+        }
     }
     if geometry.is_turned(group.leaf) {
         normal = negated(normal);
@@ -147,12 +155,61 @@ fn locate_special<S: Simd>(
     if scene.uses.object {
         object.store(frame.hit_object.get_mut(), i);
     }
-    if scene.uses.uv && scene.takes_uv(group.leaf) {
+    if scene.uses.uv && scene.takes_uv(group.leaf) && !matches!(shape, Prepared::Mesh(_)) {
         let [us, vs] = frame.hit_uv.get_mut();
         for lane in 0..Lanes::<S>::LEN {
             let of = |v: Vec3<S>| DVec3::new(v.x[lane], v.y[lane], v.z[lane]);
             [us[i + lane], vs[i + lane]] = uv(shape, of(object), of(own_normal));
         }
+    }
+}
+
+/// The hits from `i` of a mesh: points, normals, and how far along these a ray has to start.
+fn locate_mesh<S: Simd>(
+    simd: S,
+    scene: &Integrator,
+    mesh: &PreparedMesh,
+    frame: &mut Frame,
+    group: Group,
+    i: usize,
+    own: &Rays<S>,
+) -> (Vec3<S>, Vec3<S>, Lanes<S>) {
+    let with_uv = scene.uses.uv && scene.takes_uv(group.leaf);
+    let mut columns = [[0.0; MAX_LANES]; 7];
+    for lane in 0..Lanes::<S>::LEN {
+        let triangle = frame.nearest.get()[2][frame.slot[i + lane] as usize] as u32;
+        let at = mesh.locate(&ray_of(own, lane), triangle);
+        let [x, y, z] = at.point.to_array();
+        let [nx, ny, nz] = at.normal.to_array();
+        for (column, value) in columns.iter_mut().zip([x, y, z, nx, ny, nz, at.bound]) {
+            column[lane] = value;
+        }
+        let smooth = at.shading.to_array().into_iter().chain(at.lift.to_array());
+        for (column, value) in frame.hit_smooth.get_mut().into_iter().zip(smooth) {
+            column[i + lane] = value;
+        }
+        if with_uv {
+            let [us, vs] = frame.hit_uv.get_mut();
+            [us[i + lane], vs[i + lane]] = at.uv;
+        }
+    }
+    let [x, y, z, nx, ny, nz, bound] = &columns;
+    (
+        Vec3::load(simd, [x, y, z], 0),
+        Vec3::load(simd, [nx, ny, nz], 0),
+        Lanes::<S>::from_slice(simd, &bound[..Lanes::<S>::LEN]),
+    )
+}
+
+/// Takes what smooth shading needs from a mesh's own space to the world.
+fn smooth_to_world<S: Simd>(simd: S, placement: &Placement, frame: &mut Frame, i: usize) {
+    let [x, y, z, mut lift @ ..] = frame.hit_smooth.get_mut();
+    let normal = placement.normal_to_world::<S>(Vec3::load(simd, [x, y, z], i));
+    unit(simd, normal).store([x, y, z], i);
+    for lane in i..i + Lanes::<S>::LEN {
+        let own = DVec3::from(lift.each_ref().map(|column| column[lane]));
+        let world = placement.vector_to_world(own).to_array();
+        lift.iter_mut().zip(world).for_each(|(column, v)| column[lane] = v);
     }
 }
 
@@ -185,6 +242,7 @@ pub(super) fn reflect<S: Simd>(simd: S, scene: &Integrator, frame: &Frame, next:
             continue;
         }
         let all = matches!(material.reflection, Number::Constant(_));
+        let shaded = material.has_bumps || scene.geometry.is_smooth(group.leaf);
         for i in places::<S>(group.start, group.len) {
             let normal = Vec3::load(simd, frame.hit_normal.get(), i);
             let direction = Vec3::load(simd, frame.hit_direction.get(), i);
@@ -195,7 +253,7 @@ pub(super) fn reflect<S: Simd>(simd: S, scene: &Integrator, frame: &Frame, next:
                 let side = Vec3::load(simd, [x, y, z], i);
                 let clear = Lanes::<S>::from_slice(simd, &clear[i..i + Lanes::<S>::LEN]);
                 point = point.add(side.scale(clear));
-                outward(simd, material, direction, mirrored, side)
+                outward(simd, shaded, direction, mirrored, side)
             } else {
                 mirrored
             };
@@ -219,16 +277,10 @@ pub(super) fn reflect<S: Simd>(simd: S, scene: &Integrator, frame: &Frame, next:
     next.direction.pad(next.len);
 }
 
-/// Mirrored directions; where bumps would mirror into the surface, those of the surface without bumps.
+/// Mirrored directions; where bumps or smooth normals would mirror into the surface, those of the surface itself.
 #[inline(always)]
-fn outward<S: Simd>(
-    simd: S,
-    material: &Material,
-    direction: Vec3<S>,
-    mirrored: Vec3<S>,
-    side: Vec3<S>,
-) -> Vec3<S> {
-    if !material.has_bumps {
+fn outward<S: Simd>(simd: S, shaded: bool, direction: Vec3<S>, mirrored: Vec3<S>, side: Vec3<S>) -> Vec3<S> {
+    if !shaded {
         return unit(simd, mirrored);
     }
     let plain = direction.sub(side.scale(side.dot(direction) * 2.0));
@@ -270,6 +322,7 @@ pub(super) fn refract<S: Simd>(simd: S, scene: &Integrator, frame: &Frame, next:
         if material.transmission.vanishes() {
             continue;
         }
+        let shaded = material.has_bumps || scene.geometry.is_smooth(group.leaf);
         for i in places::<S>(group.start, group.len) {
             let fields = frame.fields.get();
             let normal = Vec3::load(simd, frame.hit_normal.get(), i);
@@ -277,7 +330,7 @@ pub(super) fn refract<S: Simd>(simd: S, scene: &Integrator, frame: &Frame, next:
             let index = material.refractive_index.load(simd, &fields, i);
             let lanes = Lanes::<S>::LEN.min(group.start + group.len - i);
             if scene.exact {
-                let (from, toward) = exactly_refracted(simd, frame, material, i, [direction, normal], index);
+                let (from, toward) = exactly_refracted(simd, frame, shaded, i, [direction, normal], index);
                 for lane in 0..lanes {
                     if material.transmission.of(&fields, i + lane) != 0.0 {
                         push(next, lane_of(from, lane), lane_of(toward, lane), i + lane);
@@ -331,7 +384,7 @@ fn refracted<S: Simd>(simd: S, incoming: Vec3<S>, normal: Vec3<S>, index: Lanes<
 fn exactly_refracted<S: Simd>(
     simd: S,
     frame: &Frame,
-    material: &Material,
+    shaded: bool,
     i: usize,
     [incoming, normal]: [Vec3<S>; 2],
     index: Lanes<S>,
@@ -356,7 +409,7 @@ fn exactly_refracted<S: Simd>(
     let bend = ratio * cosine - (one - squared_sine).sqrt();
     let bent = incoming.scale(ratio).add(normal.scale(bend));
     let mirrored = incoming.add(normal.scale(cosine * 2.0));
-    let mirrored = outward(simd, material, incoming, mirrored, side);
+    let mirrored = outward(simd, shaded, incoming, mirrored, side);
     let bent = unit(simd, bent);
     let toward = Vec3 {
         x: through.select(bent.x, mirrored.x),

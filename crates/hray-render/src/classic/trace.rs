@@ -13,6 +13,8 @@ pub(super) struct Nearest<S: Simd> {
     pub(super) distance: Lanes<S>,
     /// Counted from `NOTHING` of the frame, for nothing.
     pub(super) leaf: Lanes<S>,
+    /// Where the leaf is a mesh, which of its triangles.
+    pub(super) triangle: Lanes<S>,
 }
 
 impl<S: Simd> Nearest<S> {
@@ -22,6 +24,16 @@ impl<S: Simd> Nearest<S> {
         let nearer = hit & !distance.simd_ge(self.distance);
         self.distance = nearer.select(distance, self.distance);
         self.leaf = nearer.select(leaf, self.leaf);
+    }
+
+    /// As [`Self::take`] does in the order of leaves, but in any order. Returns what was taken.
+    #[inline(always)]
+    pub(super) fn take_any(&mut self, distance: Lanes<S>, hit: Mask<S>, leaf: Lanes<S>) -> Mask<S> {
+        let earlier = distance.simd_eq(self.distance) & leaf.simd_lt(self.leaf);
+        let nearer = hit & (earlier | !distance.simd_ge(self.distance));
+        self.distance = nearer.select(distance, self.distance);
+        self.leaf = nearer.select(leaf, self.leaf);
+        nearer
     }
 }
 
@@ -35,8 +47,11 @@ pub(super) fn nearest<S: Simd>(
     nothing: f64,
     walk: &mut Walk,
 ) -> Nearest<S> {
-    let mut nearest =
-        Nearest { distance: Lanes::<S>::splat(simd, f64::NAN), leaf: Lanes::<S>::splat(simd, nothing) };
+    let mut nearest = Nearest {
+        distance: Lanes::<S>::splat(simd, f64::NAN),
+        leaf: Lanes::<S>::splat(simd, nothing),
+        triangle: Lanes::<S>::splat(simd, 0.0),
+    };
     for root in &geometry.roots {
         match root {
             Root::Plain(leaves) => {
@@ -61,7 +76,21 @@ pub(super) fn nearest<S: Simd>(
                     solid_hit(simd, geometry, geometry.solid_at(*solid), rays, nothing + 1.0, walk);
                 nearest.take(distance, distance.simd_eq(distance), leaf);
             }
+            Root::Mesh(leaf) => {
+                let (distance, triangle) =
+                    mesh_hit(simd, geometry, *leaf as usize, rays, nearest.distance, walk);
+                let met = distance.simd_eq(distance);
+                let leaf = Lanes::<S>::splat(simd, nothing + 1.0 + f64::from(*leaf));
+                let taken: Mask<S> = nearest.take_any(distance, met, leaf);
+                nearest.triangle = taken.select(triangle, nearest.triangle);
+            }
         }
+    }
+    if let Some(tree) = &geometry.tree {
+        simd.vectorize(
+            #[inline(always)]
+            || tree.nearest(simd, geometry, rays, nothing, walk, &mut nearest),
+        );
     }
     nearest
 }
@@ -106,14 +135,87 @@ pub(super) fn shadowed<S: Simd>(
                     return dark;
                 }
             }
+            Root::Mesh(leaf) => {
+                dark |= mesh_shadow(simd, geometry, *leaf as usize, rays, distance, walk);
+                if dark.all_true() {
+                    return dark;
+                }
+            }
         }
     }
-    dark
+    match &geometry.tree {
+        Some(tree) => {
+            dark | simd.vectorize(
+                #[inline(always)]
+                || tree.shadowed(simd, geometry, rays, distance, walk),
+            )
+        }
+        None => dark,
+    }
+}
+
+/// The rays that meet a mesh up to `far` (or at any distance, where that is no number): how far, which is no number
+/// where a ray misses, and which triangle.
+#[inline(always)]
+pub(super) fn mesh_hit<S: Simd>(
+    simd: S,
+    geometry: &Geometry,
+    leaf: usize,
+    rays: &Rays<S>,
+    far: Lanes<S>,
+    walk: &mut Walk,
+) -> (Lanes<S>, Lanes<S>) {
+    let (mut distances, mut triangles) = ([f64::NAN; MAX_LANES], [0.0; MAX_LANES]);
+    if let Prepared::Mesh(mesh) = geometry.shape(leaf) {
+        for lane in 0..Lanes::<S>::LEN {
+            let far = if far[lane] < f64::INFINITY { far[lane] } else { f64::INFINITY };
+            let ray = geometry.own_ray(leaf, &ray_of(rays, lane));
+            if let Some((distance, triangle)) = mesh.hit(simd, &ray, [geometry.nearest, far], &mut walk.stack)
+            {
+                (distances[lane], triangles[lane]) = (distance, f64::from(triangle));
+            }
+        }
+    }
+    let len = Lanes::<S>::LEN;
+    (Lanes::<S>::from_slice(simd, &distances[..len]), Lanes::<S>::from_slice(simd, &triangles[..len]))
+}
+
+/// Which rays meet a mesh that is not farther than `distance`.
+#[inline(always)]
+pub(super) fn mesh_shadow<S: Simd>(
+    simd: S,
+    geometry: &Geometry,
+    leaf: usize,
+    rays: &Rays<S>,
+    distance: Lanes<S>,
+    walk: &mut Walk,
+) -> Mask<S> {
+    let mut met = [f64::NAN; MAX_LANES];
+    if let Prepared::Mesh(mesh) = geometry.shape(leaf) {
+        for lane in 0..Lanes::<S>::LEN {
+            let ray = geometry.own_ray(leaf, &ray_of(rays, lane));
+            if mesh.is_hit(simd, &ray, [geometry.nearest, distance[lane]], &mut walk.stack) {
+                met[lane] = 0.0;
+            }
+        }
+    }
+    let met = Lanes::<S>::from_slice(simd, &met[..Lanes::<S>::LEN]);
+    met.simd_eq(met)
+}
+
+/// One of the rays.
+#[inline(always)]
+pub(super) fn ray_of<S: Simd>(rays: &Rays<S>, lane: usize) -> Ray {
+    let (o, d) = (rays.origin, rays.direction);
+    Ray {
+        origin: DVec3::new(o.x[lane], o.y[lane], o.z[lane]),
+        direction: DVec3::new(d.x[lane], d.y[lane], d.z[lane]),
+    }
 }
 
 /// Called, not inlined, so that the loop over what is in world space stays small.
 #[inline(always)]
-fn placed_hit<S: Simd>(
+pub(super) fn placed_hit<S: Simd>(
     simd: S,
     geometry: &Geometry,
     leaf: usize,
@@ -133,7 +235,7 @@ fn placed_hit<S: Simd>(
 
 /// Distances, which are no numbers where the ray misses, and leaves, the first of the scene being `first`.
 #[inline(always)]
-fn solid_hit<S: Simd>(
+pub(super) fn solid_hit<S: Simd>(
     simd: S,
     geometry: &Geometry,
     solid: &Solid,
@@ -142,13 +244,8 @@ fn solid_hit<S: Simd>(
     walk: &mut Walk,
 ) -> (Lanes<S>, Lanes<S>) {
     let (mut distances, mut leaves) = ([f64::NAN; MAX_LANES], [f64::NAN; MAX_LANES]);
-    let (o, d) = (rays.origin, rays.direction);
     for (lane, (at, which)) in distances.iter_mut().zip(&mut leaves).enumerate().take(Lanes::<S>::LEN) {
-        let ray = Ray {
-            origin: DVec3::new(o.x[lane], o.y[lane], o.z[lane]),
-            direction: DVec3::new(d.x[lane], d.y[lane], d.z[lane]),
-        };
-        if let Some((distance, leaf)) = solid.hit(geometry, &ray, walk) {
+        if let Some((distance, leaf)) = solid.hit(geometry, &ray_of(rays, lane), walk) {
             *at = distance;
             *which = first + leaf as f64;
         }

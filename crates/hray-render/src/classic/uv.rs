@@ -43,6 +43,8 @@ pub(super) fn uv(shape: &Prepared, p: DVec3, normal: DVec3) -> [f64; 2] {
                 [1.0 - q.x, q.y]
             }
         }
+        // Located by itself.
+        Prepared::Mesh(_) => [0.0; 2],
     }
 }
 

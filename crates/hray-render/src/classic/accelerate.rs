@@ -1,0 +1,331 @@
+//! A tree over what is bounded, for scenes with many objects.
+
+use super::geometry::{Geometry, Root};
+use super::placement::Placement;
+use super::shapes::{Prepared, Rays};
+use super::solid::{Solid, Walk};
+use super::trace::{Nearest, mesh_hit, mesh_shadow, placed_hit, solid_hit};
+use fearless_simd::prelude::*;
+use hray_bvh::{AnyLeaves, Bounds, BuildOptions, ClosestLeaves, MOST_RAYS, Ray, Tree};
+use hray_core::{CsgOperation, DVec3};
+use hray_expr::kernels::lanes::{Lanes, Mask, Vec3};
+use std::ops::Range;
+
+/// With fewer bounded objects trying all of them is quicker.
+const WORTHWHILE: usize = 12;
+/// More cannot be numbered.
+const MOST: usize = 1 << 27;
+/// Coordinates of greater magnitude, from the middle of everything, are left out of the tree: their squares, and products with
+/// reciprocals of directions, could leave the range of single precision.
+const FARTHEST: f64 = 1e15;
+/// Trees of smaller things could as well.
+const SMALLEST: f64 = 1e-15;
+
+/// What is bounded, in a tree.
+pub(super) struct Accelerated {
+    tree: Tree,
+    /// What the units of leaves are.
+    items: Vec<Item>,
+    /// The origin of the tree's coordinates, so that these are as exact far away from the world's as near it.
+    center: DVec3,
+}
+
+#[derive(Clone, Copy)]
+enum Item {
+    Plain(u32),
+    Placed(u32),
+    Mesh(u32),
+    Solid(u32),
+}
+
+/// Two corners; infinite ones, and ones that are no numbers, for what has no bounds.
+type Corners = [DVec3; 2];
+
+const EVERYWHERE: Corners = [DVec3::NEG_INFINITY, DVec3::INFINITY];
+
+/// Moves what is bounded from the roots to a tree, if that is worth it.
+pub(super) fn accelerate(geometry: &mut Geometry) {
+    let (mut items, mut boxes, mut others) = (Vec::new(), Vec::new(), Vec::new());
+    let is_bounded =
+        |corners: &Corners| corners.iter().all(|corner| corner.abs().cmplt(DVec3::splat(FARTHEST)).all());
+    let mut sort = |item: Item, corners: Corners, other: Root| {
+        if is_bounded(&corners) && items.len() < MOST {
+            items.push(item);
+            boxes.push(corners);
+        } else {
+            others.push(other);
+        }
+    };
+    for root in &geometry.roots {
+        match root {
+            Root::Plain(leaves) => {
+                for leaf in leaves.clone() {
+                    sort(Item::Plain(leaf), of_leaf(geometry, leaf), Root::Plain(leaf..leaf + 1));
+                }
+            }
+            Root::Placed(leaves) => {
+                for leaf in leaves.clone() {
+                    sort(Item::Placed(leaf), of_leaf(geometry, leaf), Root::Placed(leaf..leaf + 1));
+                }
+            }
+            Root::Mesh(leaf) => sort(Item::Mesh(*leaf), of_leaf(geometry, *leaf), Root::Mesh(*leaf)),
+            Root::Solid(solid) => {
+                let corners = of_solid(geometry, geometry.solid_at(*solid));
+                sort(Item::Solid(*solid), corners, Root::Solid(*solid));
+            }
+        }
+    }
+    if items.len() < WORTHWHILE {
+        return;
+    }
+    let whole = boxes.iter().copied().reduce(union).unwrap_or(EVERYWHERE);
+    let center = (whole[0] + whole[1]) * 0.5;
+    let reach = (whole[1] - whole[0]).max_element();
+    if !(SMALLEST..FARTHEST).contains(&reach) {
+        return;
+    }
+    let boxes: Vec<Bounds> = boxes
+        .iter()
+        .map(|[min, max]| Bounds::outward((*min - center).to_array(), (*max - center).to_array()))
+        .collect();
+    let (tree, order) = Tree::of_boxes(&boxes, &BuildOptions::default());
+    let items = order.iter().map(|&number| items[number as usize]).collect();
+    geometry.roots = others;
+    geometry.tree = Some(Accelerated { tree, items, center });
+}
+
+/// The box around a leaf in the world.
+fn of_leaf(geometry: &Geometry, leaf: u32) -> Corners {
+    let leaf = leaf as usize;
+    let placement = geometry.placement(leaf);
+    match geometry.shape(leaf) {
+        Prepared::Sphere { center, squared_radius, .. } => {
+            of_sphere(placement, *center, squared_radius.sqrt())
+        }
+        Prepared::ExactSphere { center, radius } => of_sphere(placement, *center, radius.abs()),
+        Prepared::Cuboid { min, max, .. } => placement.map_or([*min, *max], |to| to.box_to_world(*min, *max)),
+        Prepared::Plane { .. } | Prepared::ExactPlane { .. } => EVERYWHERE,
+        Prepared::Mesh(mesh) => match (mesh.bounds(), placement) {
+            (Some([min, max]), Some(placement)) => placement.box_to_world(min, max),
+            (Some(corners), None) => corners,
+            (None, _) => [DVec3::ZERO; 2],
+        },
+    }
+}
+
+fn of_sphere(placement: Option<&Placement>, center: DVec3, radius: f64) -> Corners {
+    match placement {
+        None => [center - radius, center + radius],
+        Some(placement) => placement.box_to_world(center - radius, center + radius),
+    }
+}
+
+fn union(a: Corners, b: Corners) -> Corners {
+    [a[0].min(b[0]), a[1].max(b[1])]
+}
+
+/// The box around a solid. Where operands do not meet it is a point of one of them.
+fn of_solid(geometry: &Geometry, solid: &Solid) -> Corners {
+    let mut leaves = 0;
+    let mut corners: Vec<Corners> = Vec::with_capacity(solid.nodes.len());
+    for node in &solid.nodes {
+        let this = match node.made {
+            None => {
+                leaves += 1;
+                of_leaf(geometry, solid.first + leaves - 1)
+            }
+            Some((operation, [a, b])) => {
+                let (a, b) = (corners[a as usize], corners[b as usize]);
+                match operation {
+                    CsgOperation::Union => union(a, b),
+                    CsgOperation::Difference => a,
+                    CsgOperation::Intersection => {
+                        let min = a[0].max(b[0]);
+                        [min, a[1].min(b[1]).max(min)]
+                    }
+                }
+            }
+        };
+        corners.push(this);
+    }
+    corners.last().copied().unwrap_or(EVERYWHERE)
+}
+
+impl Accelerated {
+    /// The rays as the tree takes them; nothing where it cannot take one.
+    #[inline(always)]
+    fn narrowed<S: Simd>(&self, simd: S, rays: &Rays<S>, far: Lanes<S>) -> Option<[Ray; MOST_RAYS]> {
+        let from = rays.origin.sub(Vec3::splat(simd, self.center));
+        let d = rays.direction;
+        let near =
+            from.x.abs().simd_lt(FARTHEST) & from.y.abs().simd_lt(FARTHEST) & from.z.abs().simd_lt(FARTHEST);
+        if !near.all_true() {
+            return None;
+        }
+        let mut narrowed = [Ray::NOWHERE; MOST_RAYS];
+        for (lane, ray) in narrowed.iter_mut().enumerate().take(Lanes::<S>::LEN) {
+            let origin = [from.x[lane] as f32, from.y[lane] as f32, from.z[lane] as f32];
+            let direction = [d.x[lane] as f32, d.y[lane] as f32, d.z[lane] as f32];
+            *ray = Ray::new(simd, origin, direction, 0.0, up_to(far[lane]), self.tree.reach());
+            if !ray.is_sane() {
+                return None;
+            }
+        }
+        Some(narrowed)
+    }
+
+    /// Looks for nearer hits than there are.
+    #[inline(always)]
+    pub(super) fn nearest<S: Simd>(
+        &self,
+        simd: S,
+        geometry: &Geometry,
+        rays: &Rays<S>,
+        nothing: f64,
+        walk: &mut Walk,
+        nearest: &mut Nearest<S>,
+    ) {
+        let mut stack = std::mem::take(&mut walk.packets);
+        let narrowed = self.narrowed(simd, rays, nearest.distance);
+        let mut leaves = Search { items: &self.items, geometry, rays, nothing, walk, nearest: *nearest };
+        match narrowed {
+            Some(mut narrowed) => {
+                self.tree.closest_packet(simd, &mut narrowed[..Lanes::<S>::LEN], &mut stack, &mut leaves);
+            }
+            None => leaves.closest(simd, &mut [], 0, 0..self.items.len()),
+        }
+        *nearest = leaves.nearest;
+        walk.packets = stack;
+    }
+
+    /// Which rays, those of `dark` aside, meet something that is not farther than `distance`.
+    #[inline(always)]
+    pub(super) fn shadowed<S: Simd>(
+        &self,
+        simd: S,
+        geometry: &Geometry,
+        rays: &Rays<S>,
+        distance: Lanes<S>,
+        walk: &mut Walk,
+    ) -> Mask<S> {
+        let mut stack = std::mem::take(&mut walk.packets);
+        let narrowed = self.narrowed(simd, rays, distance);
+        let dark = Mask::<S>::splat(simd, false);
+        let mut leaves = Shadows { items: &self.items, geometry, rays, distance, walk, dark };
+        match narrowed {
+            Some(mut narrowed) => {
+                let narrowed = &mut narrowed[..Lanes::<S>::LEN];
+                let _ = self.tree.any_packet(simd, narrowed, &mut stack, &mut leaves);
+            }
+            None => {
+                let _ = leaves.any(simd, &[], 0, 0..self.items.len());
+            }
+        }
+        let dark = leaves.dark;
+        walk.packets = stack;
+        dark
+    }
+}
+
+/// A single that is not less than a distance; for what is no number, before the first hit, no limit.
+#[inline(always)]
+fn up_to(distance: f64) -> f32 {
+    let narrow = distance as f32;
+    if f64::from(narrow) >= distance {
+        narrow
+    } else if distance.is_nan() {
+        f32::INFINITY
+    } else {
+        narrow.next_up()
+    }
+}
+
+struct Search<'a, S: Simd> {
+    items: &'a [Item],
+    geometry: &'a Geometry,
+    rays: &'a Rays<S>,
+    nothing: f64,
+    walk: &'a mut Walk,
+    nearest: Nearest<S>,
+}
+
+impl<S: Simd> ClosestLeaves<S> for Search<'_, S> {
+    #[inline(always)]
+    fn closest(&mut self, simd: S, rays: &mut [Ray], _lanes: u32, units: Range<usize>) {
+        for &item in &self.items[units] {
+            let first = self.nothing + 1.0;
+            match item {
+                Item::Plain(leaf) => {
+                    if let Some((distance, hit)) = self.geometry.shape(leaf as usize).hit(simd, self.rays) {
+                        self.nearest.take_any(
+                            distance,
+                            hit,
+                            Lanes::<S>::splat(simd, first + f64::from(leaf)),
+                        );
+                    }
+                }
+                Item::Placed(leaf) => {
+                    if let Some((distance, hit)) = placed_hit(simd, self.geometry, leaf as usize, self.rays) {
+                        self.nearest.take_any(
+                            distance,
+                            hit,
+                            Lanes::<S>::splat(simd, first + f64::from(leaf)),
+                        );
+                    }
+                }
+                Item::Mesh(leaf) => {
+                    let far = self.nearest.distance;
+                    let (distance, triangle) =
+                        mesh_hit(simd, self.geometry, leaf as usize, self.rays, far, self.walk);
+                    let met = distance.simd_eq(distance);
+                    let leaf = Lanes::<S>::splat(simd, first + f64::from(leaf));
+                    let taken = self.nearest.take_any(distance, met, leaf);
+                    self.nearest.triangle = taken.select(triangle, self.nearest.triangle);
+                }
+                Item::Solid(solid) => {
+                    let solid = self.geometry.solid_at(solid);
+                    let (distance, leaf) = solid_hit(simd, self.geometry, solid, self.rays, first, self.walk);
+                    self.nearest.take_any(distance, distance.simd_eq(distance), leaf);
+                }
+            }
+        }
+        for (lane, ray) in rays.iter_mut().enumerate() {
+            ray.far = up_to(self.nearest.distance[lane]).min(ray.far);
+        }
+    }
+}
+
+struct Shadows<'a, S: Simd> {
+    items: &'a [Item],
+    geometry: &'a Geometry,
+    rays: &'a Rays<S>,
+    distance: Lanes<S>,
+    walk: &'a mut Walk,
+    dark: Mask<S>,
+}
+
+impl<S: Simd> AnyLeaves<S> for Shadows<'_, S> {
+    #[inline(always)]
+    fn any(&mut self, simd: S, _rays: &[Ray], _lanes: u32, units: Range<usize>) -> u32 {
+        for &item in &self.items[units] {
+            let met = match item {
+                Item::Plain(leaf) => self.geometry.shape(leaf as usize).hit(simd, self.rays),
+                Item::Placed(leaf) => placed_hit(simd, self.geometry, leaf as usize, self.rays),
+                Item::Mesh(leaf) => {
+                    self.dark |=
+                        mesh_shadow(simd, self.geometry, leaf as usize, self.rays, self.distance, self.walk);
+                    None
+                }
+                Item::Solid(solid) => {
+                    let solid = self.geometry.solid_at(solid);
+                    let (at, _) = solid_hit(simd, self.geometry, solid, self.rays, 0.0, self.walk);
+                    Some((at, at.simd_eq(at)))
+                }
+            };
+            if let Some((at, hit)) = met {
+                self.dark |= hit & at.simd_le(self.distance);
+            }
+        }
+        self.dark.to_bitmask() as u32
+    }
+}
