@@ -39,19 +39,21 @@ pub struct PacketStack {
 }
 
 impl Tree {
-    /// Visits leaves, roughly from the nearest on, until what remains is farther than each ray's `far`. There are at most
+    /// Visits leaves, roughly from the nearest on, until what remains is farther than the `far` of each ray of `lanes`. There are at most
     /// [`MOST_RAYS`] rays.
     #[inline(always)]
     pub fn closest_packet<S: Simd>(
         &self,
         simd: S,
         rays: &mut [Ray],
+        lanes: u32,
         stack: &mut PacketStack,
         leaves: &mut impl ClosestLeaves<S>,
     ) {
         self.walk_packet(
             simd,
             rays,
+            lanes,
             stack,
             #[inline(always)]
             |simd, rays, lanes, units| {
@@ -61,18 +63,20 @@ impl Tree {
         );
     }
 
-    /// Which rays meet anything, as bits. There are at most [`MOST_RAYS`] rays.
+    /// Which of the rays of `lanes` meet anything, as bits. There are at most [`MOST_RAYS`] rays.
     #[inline(always)]
     pub fn any_packet<S: Simd>(
         &self,
         simd: S,
         rays: &mut [Ray],
+        lanes: u32,
         stack: &mut PacketStack,
         leaves: &mut impl AnyLeaves<S>,
     ) -> u32 {
         self.walk_packet(
             simd,
             rays,
+            lanes,
             stack,
             #[inline(always)]
             |simd, rays, lanes, units| leaves.any(simd, rays, lanes, units),
@@ -85,6 +89,7 @@ impl Tree {
         &self,
         simd: S,
         rays: &mut [Ray],
+        lanes: u32,
         stack: &mut PacketStack,
         mut visit: impl FnMut(S, &mut [Ray], u32, Range<usize>) -> u32,
     ) -> u32 {
@@ -95,7 +100,10 @@ impl Tree {
             stack.entries.resize(self.stack, Entry::default());
         }
         let entries = &mut stack.entries[..];
-        let all = (1u32 << count) - 1;
+        let all = ((1u32 << count) - 1) & lanes;
+        if all == 0 {
+            return 0;
+        }
         let (mut done, mut top) = (0, 0);
         let (mut child, mut lanes) = (root.0, all);
         loop {

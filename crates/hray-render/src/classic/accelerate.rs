@@ -190,7 +190,13 @@ impl Accelerated {
         let mut leaves = Search { items: &self.items, geometry, rays, nothing, walk, nearest: *nearest };
         match narrowed {
             Some(mut narrowed) => {
-                self.tree.closest_packet(simd, &mut narrowed[..Lanes::<S>::LEN], &mut stack, &mut leaves);
+                self.tree.closest_packet(
+                    simd,
+                    &mut narrowed[..Lanes::<S>::LEN],
+                    u32::MAX,
+                    &mut stack,
+                    &mut leaves,
+                );
             }
             None => leaves.closest(simd, &mut [], 0, 0..self.items.len()),
         }
@@ -198,7 +204,7 @@ impl Accelerated {
         walk.packets = stack;
     }
 
-    /// Which rays, those of `dark` aside, meet something that is not farther than `distance`.
+    /// Which rays of `lanes` meet something that is not farther than `distance`; others may be among them.
     #[inline(always)]
     pub(super) fn shadowed<S: Simd>(
         &self,
@@ -206,6 +212,7 @@ impl Accelerated {
         geometry: &Geometry,
         rays: &Rays<S>,
         distance: Lanes<S>,
+        lanes: u32,
         walk: &mut Walk,
     ) -> Mask<S> {
         let mut stack = std::mem::take(&mut walk.packets);
@@ -215,7 +222,7 @@ impl Accelerated {
         match narrowed {
             Some(mut narrowed) => {
                 let narrowed = &mut narrowed[..Lanes::<S>::LEN];
-                let _ = self.tree.any_packet(simd, narrowed, &mut stack, &mut leaves);
+                let _ = self.tree.any_packet(simd, narrowed, lanes, &mut stack, &mut leaves);
             }
             None => {
                 let _ = leaves.any(simd, &[], 0, 0..self.items.len());

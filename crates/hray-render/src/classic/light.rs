@@ -29,6 +29,8 @@ struct Hits<S: Simd> {
     direction: Vec3<S>,
     /// Their place in the columns.
     place: usize,
+    /// The lanes that are hits; others repeat the last.
+    lanes: u32,
 }
 
 /// What all hits of a group share.
@@ -81,7 +83,8 @@ pub(super) fn shade<S: Simd>(
                 let [_, _, _, x, y, z] = frame.hit_smooth.get();
                 point = point.add(Vec3::load(simd, [x, y, z], i));
             }
-            let hits = Hits { point, object, normal, direction, place: i };
+            let lanes = (1u32 << (group.start + group.len - i).min(MAX_LANES)) - 1;
+            let hits = Hits { point, object, normal, direction, place: i, lanes };
             let color = light(simd, &shared, &hits, walk, control);
             color.store(frame.hit_color.get_mut(), i);
         }
@@ -153,7 +156,9 @@ fn light<S: Simd>(simd: S, group: &Group<'_>, hits: &Hits<S>, walk: &mut Walk, c
         if scene.exact && away.all_true() {
             continue;
         }
-        let mut dark = shadowed(simd, &scene.geometry, &Rays::new(hits.point, to_light), distance, walk);
+        let asked = if scene.exact { hits.lanes & !(away.to_bitmask() as u32) } else { hits.lanes };
+        let rays = Rays::new(hits.point, to_light);
+        let mut dark = shadowed(simd, &scene.geometry, &rays, distance, asked, walk);
         if scene.exact {
             dark |= away;
         }

@@ -95,13 +95,14 @@ pub(super) fn nearest<S: Simd>(
     nearest
 }
 
-/// Which rays meet something that is not farther than `distance`.
+/// Which rays of `lanes` meet something that is not farther than `distance`; others may be among them.
 #[inline(always)]
 pub(super) fn shadowed<S: Simd>(
     simd: S,
     geometry: &Geometry,
     rays: &Rays<S>,
     distance: Lanes<S>,
+    lanes: u32,
     walk: &mut Walk,
 ) -> Mask<S> {
     let mut dark = Mask::<S>::splat(simd, false);
@@ -147,7 +148,7 @@ pub(super) fn shadowed<S: Simd>(
         Some(tree) => {
             dark | simd.vectorize(
                 #[inline(always)]
-                || tree.shadowed(simd, geometry, rays, distance, walk),
+                || tree.shadowed(simd, geometry, rays, distance, lanes & !(dark.to_bitmask() as u32), walk),
             )
         }
         None => dark,
