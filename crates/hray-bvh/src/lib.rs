@@ -20,6 +20,6 @@ mod triangle;
 pub use bounds::Bounds;
 pub use build::{BuildOptions, Quality};
 pub use mesh::{Hit, MeshError, TriangleMesh};
-pub use packet::{AnyLeaves, ClosestLeaves, MOST_RAYS, PacketStack};
+pub use packet::{AnyLeaves, ClosestLeaves, MOST_RAYS, Packet, PacketStack};
 pub use ray::Ray;
 pub use tree::{Leaves, Stack, Tree};

@@ -1,9 +1,9 @@
 //! Rays that walk through a tree together. Each is tested against the boxes that it would be tested against alone, but what
 //! is in a leaf can be tested for all at once, and neighbours share the waits for memory and the branches.
 
-use crate::Ray;
 use crate::prefetch::prefetch;
-use crate::tree::{COUNT_SHIFT, LEAF, MOST, Node, Tree, WIDTH, entry};
+use crate::ray::{FLATTEST, SLACK};
+use crate::tree::{COUNT_SHIFT, LEAF, MOST, Node, Tree, WIDTH, entry, plane};
 use fearless_simd::f32x8;
 use fearless_simd::prelude::*;
 use std::ops::Range;
@@ -11,17 +11,118 @@ use std::ops::Range;
 /// The most rays of a packet.
 pub const MOST_RAYS: usize = 8;
 
+/// Rays made ready for boxes, as columns of one number of each ray. See [`Ray::new`](crate::Ray::new).
+#[derive(Clone, Copy, Debug)]
+pub struct Packet {
+    /// How far each ray goes, in units of its direction's length; never more than the greatest single.
+    pub far: [f32; MOST_RAYS],
+    inverse: [[f32; MOST_RAYS]; 3],
+    first: [[f32; MOST_RAYS]; 3],
+    last: [[f32; MOST_RAYS]; 3],
+    /// A bit for each ray that goes down the axis.
+    down: [u32; 3],
+    /// The rays whose numbers are in the range of single precision.
+    sane: u32,
+}
+
+impl Packet {
+    /// Makes rays ready for things whose greatest coordinate is `reach`, from columns of the coordinates of where they start and
+    /// where they go. They count from distance 0 on.
+    #[inline(always)]
+    #[must_use]
+    pub fn new<S: Simd>(
+        simd: S,
+        origin: &[[f32; MOST_RAYS]; 3],
+        direction: &[[f32; MOST_RAYS]; 3],
+        far: &[f32; MOST_RAYS],
+        reach: f32,
+    ) -> Self {
+        let slack = (greatest(simd, origin) + reach) * SLACK;
+        let flattest = greatest(simd, direction) * FLATTEST;
+        let mut packet = Self {
+            far: *far,
+            inverse: [[0.0; MOST_RAYS]; 3],
+            first: [[0.0; MOST_RAYS]; 3],
+            last: [[0.0; MOST_RAYS]; 3],
+            down: [0; 3],
+            sane: 0,
+        };
+        let mut sum = f32x8::splat(simd, 0.0);
+        for axis in 0..3 {
+            let along: f32x8<S> = direction[axis].simd_into(simd);
+            let from: f32x8<S> = origin[axis].simd_into(simd);
+            let flat = along.abs().simd_lt(flattest);
+            let inverse = f32x8::splat(simd, 1.0) / flat.select(flattest.copysign(along), along);
+            let (centre, widen) = (from * inverse, inverse.abs() * slack);
+            let (first, last) = (-(centre + widen), widen - centre);
+            sum = sum + first.abs() + last.abs();
+            packet.down[axis] = inverse.simd_lt(0.0).to_bitmask() as u32;
+            packet.inverse[axis] = inverse.into();
+            packet.first[axis] = first.into();
+            packet.last[axis] = last.into();
+        }
+        packet.sane = sum.simd_lt(f32::INFINITY).to_bitmask() as u32;
+        let far: f32x8<S> = (*far).simd_into(simd);
+        packet.far = far.simd_lt(f32::MAX).select(far, f32x8::splat(simd, f32::MAX)).into();
+        packet
+    }
+
+    /// Whether the first `count` rays can meet anything: where a ray's numbers leave the range of single precision, its walk
+    /// finds nothing.
+    #[inline(always)]
+    #[must_use]
+    pub fn is_sane(&self, count: usize) -> bool {
+        let all = (1 << count) - 1;
+        self.sane & all == all
+    }
+
+    /// Where a ray enters each child of a node, and a bit for each that it meets.
+    #[inline(always)]
+    fn enter<S: Simd>(&self, simd: S, node: &Node, lane: usize) -> (f32x8<S>, u64) {
+        let lane = lane & (MOST_RAYS - 1);
+        let [dx, dy, dz] = self.down.map(|bits| (bits >> lane & 1) as usize);
+        let ([ix, iy, iz], [fx, fy, fz], [lx, ly, lz]) = (&self.inverse, &self.first, &self.last);
+        let bounds = &node.bounds;
+        let x0 = plane(simd, &bounds[dx & 1], ix[lane], fx[lane]);
+        let y0 = plane(simd, &bounds[2 + (dy & 1)], iy[lane], fy[lane]);
+        let z0 = plane(simd, &bounds[4 + (dz & 1)], iz[lane], fz[lane]);
+        let x1 = plane(simd, &bounds[1 - (dx & 1)], ix[lane], lx[lane]);
+        let y1 = plane(simd, &bounds[3 - (dy & 1)], iy[lane], ly[lane]);
+        let z1 = plane(simd, &bounds[5 - (dz & 1)], iz[lane], lz[lane]);
+        let enter = x0.max(y0).max(z0.max(f32x8::splat(simd, 0.0)));
+        let leave = x1.min(y1).min(z1.min(f32x8::splat(simd, self.far[lane])));
+        let met = enter.simd_le(leave);
+        (met.select(enter, f32x8::splat(simd, f32::INFINITY)), met.to_bitmask())
+    }
+
+    /// Which rays go as far as a distance.
+    #[inline(always)]
+    fn reaching<S: Simd>(&self, simd: S, distance: f32) -> u32 {
+        let far: f32x8<S> = self.far.simd_into(simd);
+        far.simd_ge(distance).to_bitmask() as u32
+    }
+}
+
+/// The greatest magnitude of each vector's components.
+#[inline(always)]
+fn greatest<S: Simd>(simd: S, columns: &[[f32; MOST_RAYS]; 3]) -> f32x8<S> {
+    let [x, y, z] = columns;
+    let (x, y, z): (f32x8<S>, f32x8<S>, f32x8<S>) =
+        ((*x).simd_into(simd), (*y).simd_into(simd), (*z).simd_into(simd));
+    x.abs().max(y.abs()).max(z.abs())
+}
+
 /// Tests what is in a leaf for the nearest hits of several rays.
 pub trait ClosestLeaves<S: Simd> {
     /// Tests a leaf's units, and shortens the rays (`far`) to what they meet. Only the rays of `lanes` are known to meet the
     /// leaf's box; others may be tested as well. What lies as far as `far` counts.
-    fn closest(&mut self, simd: S, rays: &mut [Ray], lanes: u32, units: Range<usize>);
+    fn closest(&mut self, simd: S, rays: &mut Packet, lanes: u32, units: Range<usize>);
 }
 
 /// Tests what is in a leaf for any hits of several rays.
 pub trait AnyLeaves<S: Simd> {
     /// Which of the rays of `lanes` meet any of a leaf's units; others may be among them if they do.
-    fn any(&mut self, simd: S, rays: &[Ray], lanes: u32, units: Range<usize>) -> u32;
+    fn any(&mut self, simd: S, lanes: u32, units: Range<usize>) -> u32;
 }
 
 #[derive(Clone, Copy, Debug, Default)]
@@ -39,13 +140,12 @@ pub struct PacketStack {
 }
 
 impl Tree {
-    /// Visits leaves, roughly from the nearest on, until what remains is farther than the `far` of each ray of `lanes`. There are at most
-    /// [`MOST_RAYS`] rays.
+    /// Visits leaves, roughly from the nearest on, until what remains is farther than the `far` of each ray of `lanes`.
     #[inline(always)]
     pub fn closest_packet<S: Simd>(
         &self,
         simd: S,
-        rays: &mut [Ray],
+        rays: &mut Packet,
         lanes: u32,
         stack: &mut PacketStack,
         leaves: &mut impl ClosestLeaves<S>,
@@ -63,12 +163,12 @@ impl Tree {
         );
     }
 
-    /// Which of the rays of `lanes` meet anything, as bits. There are at most [`MOST_RAYS`] rays.
+    /// Which of the rays of `lanes` meet anything, as bits.
     #[inline(always)]
     pub fn any_packet<S: Simd>(
         &self,
         simd: S,
-        rays: &mut [Ray],
+        rays: &mut Packet,
         lanes: u32,
         stack: &mut PacketStack,
         leaves: &mut impl AnyLeaves<S>,
@@ -79,7 +179,7 @@ impl Tree {
             lanes,
             stack,
             #[inline(always)]
-            |simd, rays, lanes, units| leaves.any(simd, rays, lanes, units),
+            |simd, _, lanes, units| leaves.any(simd, lanes, units),
         )
     }
 
@@ -88,22 +188,20 @@ impl Tree {
     fn walk_packet<S: Simd>(
         &self,
         simd: S,
-        rays: &mut [Ray],
+        rays: &mut Packet,
         lanes: u32,
         stack: &mut PacketStack,
-        mut visit: impl FnMut(S, &mut [Ray], u32, Range<usize>) -> u32,
+        mut visit: impl FnMut(S, &mut Packet, u32, Range<usize>) -> u32,
     ) -> u32 {
         let Some(root) = self.root else { return 0 };
-        let count = rays.len().min(MOST_RAYS);
-        let rays = &mut rays[..count];
+        let all = lanes & rays.sane;
+        if all == 0 {
+            return 0;
+        }
         if stack.entries.len() < self.stack {
             stack.entries.resize(self.stack, Entry::default());
         }
         let entries = &mut stack.entries[..];
-        let all = ((1u32 << count) - 1) & lanes;
-        if all == 0 {
-            return 0;
-        }
         let (mut done, mut top) = (0, 0);
         let (mut child, mut lanes) = (root.0, all);
         loop {
@@ -154,9 +252,9 @@ impl Tree {
                 }
                 top -= 1;
                 let next = entries[top];
-                let going = next.lanes & !done;
                 let distance = f32::from_bits((next.key >> 32) as u32);
-                if going != 0 && reaches(rays, going, distance) {
+                let going = next.lanes & !done & rays.reaching(simd, distance);
+                if going != 0 {
                     (child, lanes) = (next.key as u32, going);
                     break;
                 }
@@ -167,15 +265,15 @@ impl Tree {
 
 /// Where the first of the rays enters each child, and for each ray a byte of which children it meets.
 #[inline(always)]
-fn enter<S: Simd>(simd: S, node: &Node, rays: &[Ray], lanes: u32) -> (f32x8<S>, u64) {
-    let mut nearest = f32x8::splat(simd, f32::INFINITY);
-    let mut met = 0;
-    for (lane, ray) in rays.iter().enumerate() {
-        if lanes >> lane & 1 == 1 {
-            let (at, mask) = node.enter(simd, ray, ray.far);
-            nearest = nearest.min(mask.select(at, f32x8::splat(simd, f32::INFINITY)));
-            met |= mask.to_bitmask() << (8 * lane);
-        }
+fn enter<S: Simd>(simd: S, node: &Node, rays: &Packet, lanes: u32) -> (f32x8<S>, u64) {
+    let (mut nearest, mut met) = (f32x8::splat(simd, f32::INFINITY), 0);
+    let mut rest = lanes;
+    while rest != 0 {
+        let lane = rest.trailing_zeros() as usize;
+        rest &= rest - 1;
+        let (at, children) = rays.enter(simd, node, lane);
+        nearest = nearest.min(at);
+        met |= children << (8 * lane);
     }
     (nearest, met)
 }
@@ -192,15 +290,6 @@ fn fold(met: u64) -> u32 {
 #[inline(always)]
 fn of_slot(met: u64, slot: usize) -> u32 {
     ((met >> slot & 0x0101_0101_0101_0101).wrapping_mul(0x0102_0408_1020_4080) >> 56) as u32
-}
-
-#[inline(always)]
-fn reaches(rays: &[Ray], lanes: u32, distance: f32) -> bool {
-    let mut reaches = false;
-    for (lane, ray) in rays.iter().enumerate() {
-        reaches |= (lanes >> lane & 1 == 1) & (distance <= ray.far);
-    }
-    reaches
 }
 
 #[cfg(test)]

@@ -5,10 +5,10 @@ use fearless_simd::prelude::*;
 
 /// How far, in units of the greatest coordinate involved, rounding may move the result of a leaf's test or of a box's. A leaf
 /// test rounds a dozen times (2^-24 each); the rest is margin for a ray that was rounded from doubles.
-const SLACK: f32 = 1.0 / (1u32 << 20) as f32;
+pub(crate) const SLACK: f32 = 1.0 / (1u32 << 20) as f32;
 
 /// Components of a direction are not taken to be less than this share of the greatest one: their reciprocals stay finite.
-const FLATTEST: f32 = 1e-18;
+pub(crate) const FLATTEST: f32 = 1e-18;
 
 /// A ray in single precision, with what the test of boxes needs.
 #[derive(Clone, Copy, Debug)]

@@ -23,7 +23,7 @@ pub(crate) const MOST: usize = 1 << COUNT_SHIFT;
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Node {
     /// Least x, greatest x, least y, ...: so that a ray's direction picks the planes that it comes to first.
-    bounds: [[f32; WIDTH]; 6],
+    pub(crate) bounds: [[f32; WIDTH]; 6],
     children: [u32; WIDTH],
     /// Fills the last line.
     _rest: [u32; WIDTH],
@@ -116,7 +116,7 @@ impl Node {
 /// leaves find decides.
 #[expect(clippy::disallowed_methods, reason = "culls only; no bit of a result depends on it")]
 #[inline(always)]
-fn plane<S: Simd>(simd: S, planes: &[f32; WIDTH], inverse: f32, offset: f32) -> f32x8<S> {
+pub(crate) fn plane<S: Simd>(simd: S, planes: &[f32; WIDTH], inverse: f32, offset: f32) -> f32x8<S> {
     let planes: f32x8<S> = (*planes).simd_into(simd);
     planes.mul_add(f32x8::splat(simd, inverse), f32x8::splat(simd, offset))
 }

@@ -5,10 +5,11 @@ use super::placement::Placement;
 use super::shapes::{Prepared, Rays};
 use super::solid::{Solid, Walk};
 use super::trace::{Nearest, mesh_hit, mesh_shadow, placed_hit, solid_hit};
+use fearless_simd::f32x8;
 use fearless_simd::prelude::*;
-use hray_bvh::{AnyLeaves, Bounds, BuildOptions, ClosestLeaves, MOST_RAYS, Ray, Tree};
+use hray_bvh::{AnyLeaves, Bounds, BuildOptions, ClosestLeaves, MOST_RAYS, Packet, Tree};
 use hray_core::{CsgOperation, DVec3};
-use hray_expr::kernels::lanes::{Lanes, Mask, Vec3};
+use hray_expr::kernels::lanes::{Lanes, MAX_LANES, Mask, Vec3};
 use std::ops::Range;
 
 /// With fewer bounded objects trying all of them is quicker.
@@ -154,24 +155,14 @@ fn of_solid(geometry: &Geometry, solid: &Solid) -> Corners {
 impl Accelerated {
     /// The rays as the tree takes them; nothing where it cannot take one.
     #[inline(always)]
-    fn narrowed<S: Simd>(&self, simd: S, rays: &Rays<S>, far: Lanes<S>) -> Option<[Ray; MOST_RAYS]> {
+    fn narrowed<S: Simd>(&self, simd: S, rays: &Rays<S>, far: Lanes<S>) -> Option<Packet> {
         let from = rays.origin.sub(Vec3::splat(simd, self.center));
-        let d = rays.direction;
-        let near =
-            from.x.abs().simd_lt(FARTHEST) & from.y.abs().simd_lt(FARTHEST) & from.z.abs().simd_lt(FARTHEST);
-        if !near.all_true() {
-            return None;
-        }
-        let mut narrowed = [Ray::NOWHERE; MOST_RAYS];
-        for (lane, ray) in narrowed.iter_mut().enumerate().take(Lanes::<S>::LEN) {
-            let origin = [from.x[lane] as f32, from.y[lane] as f32, from.z[lane] as f32];
-            let direction = [d.x[lane] as f32, d.y[lane] as f32, d.z[lane] as f32];
-            *ray = Ray::new(simd, origin, direction, 0.0, up_to(far[lane]), self.tree.reach());
-            if !ray.is_sane() {
-                return None;
-            }
-        }
-        Some(narrowed)
+        let origin = [narrow::<S>(from.x), narrow::<S>(from.y), narrow::<S>(from.z)];
+        let direction = rays.direction;
+        let direction = [narrow::<S>(direction.x), narrow::<S>(direction.y), narrow::<S>(direction.z)];
+        let packet = Packet::new(simd, &origin, &direction, &up_to(simd, far), self.tree.reach());
+        let inside = from.x.abs().max(from.y.abs()).max(from.z.abs()).simd_lt(FARTHEST).all_true();
+        (inside && packet.is_sane(Lanes::<S>::LEN)).then_some(packet)
     }
 
     /// Looks for nearer hits than there are.
@@ -190,15 +181,9 @@ impl Accelerated {
         let mut leaves = Search { items: &self.items, geometry, rays, nothing, walk, nearest: *nearest };
         match narrowed {
             Some(mut narrowed) => {
-                self.tree.closest_packet(
-                    simd,
-                    &mut narrowed[..Lanes::<S>::LEN],
-                    u32::MAX,
-                    &mut stack,
-                    &mut leaves,
-                );
+                self.tree.closest_packet(simd, &mut narrowed, u32::MAX, &mut stack, &mut leaves);
             }
-            None => leaves.closest(simd, &mut [], 0, 0..self.items.len()),
+            None => leaves.test(simd, 0..self.items.len()),
         }
         *nearest = leaves.nearest;
         walk.packets = stack;
@@ -221,11 +206,10 @@ impl Accelerated {
         let mut leaves = Shadows { items: &self.items, geometry, rays, distance, walk, dark };
         match narrowed {
             Some(mut narrowed) => {
-                let narrowed = &mut narrowed[..Lanes::<S>::LEN];
-                let _ = self.tree.any_packet(simd, narrowed, lanes, &mut stack, &mut leaves);
+                let _ = self.tree.any_packet(simd, &mut narrowed, lanes, &mut stack, &mut leaves);
             }
             None => {
-                let _ = leaves.any(simd, &[], 0, 0..self.items.len());
+                let _ = leaves.any(simd, lanes, 0..self.items.len());
             }
         }
         let dark = leaves.dark;
@@ -234,18 +218,25 @@ impl Accelerated {
     }
 }
 
-/// A single that is not less than a distance; for what is no number, before the first hit, no limit.
+/// As singles; what is missing of a full packet is 0.
 #[inline(always)]
-fn up_to(distance: f64) -> f32 {
-    let narrow = distance as f32;
-    if f64::from(narrow) >= distance {
-        narrow
-    } else if distance.is_nan() {
-        f32::INFINITY
-    } else {
-        narrow.next_up()
+fn narrow<S: Simd>(column: Lanes<S>) -> [f32; MOST_RAYS] {
+    let mut narrow = [0.0; MOST_RAYS];
+    for lane in 0..Lanes::<S>::LEN {
+        narrow[lane] = column[lane] as f32;
     }
+    narrow
 }
+
+/// Singles that are not less than distances; for what is no number, before the first hit, no limit.
+#[inline(always)]
+fn up_to<S: Simd>(simd: S, distances: Lanes<S>) -> [f32; MOST_RAYS] {
+    let known = distances.simd_eq(distances);
+    // Twice what rounding to the nearest can take away.
+    let widened = distances * (1.0 + f64::from(f32::EPSILON));
+    narrow::<S>(known.select(widened, Lanes::<S>::splat(simd, f64::INFINITY)))
+}
+
 
 struct Search<'a, S: Simd> {
     items: &'a [Item],
@@ -258,7 +249,16 @@ struct Search<'a, S: Simd> {
 
 impl<S: Simd> ClosestLeaves<S> for Search<'_, S> {
     #[inline(always)]
-    fn closest(&mut self, simd: S, rays: &mut [Ray], _lanes: u32, units: Range<usize>) {
+    fn closest(&mut self, simd: S, rays: &mut Packet, _lanes: u32, units: Range<usize>) {
+        self.test(simd, units);
+        let far: f32x8<S> = up_to(simd, self.nearest.distance).simd_into(simd);
+        rays.far = far.simd_lt(f32::MAX).select(far, f32x8::splat(simd, f32::MAX)).into();
+    }
+}
+
+impl<S: Simd> Search<'_, S> {
+    #[inline(always)]
+    fn test(&mut self, simd: S, units: Range<usize>) {
         for &item in &self.items[units] {
             let first = self.nothing + 1.0;
             match item {
@@ -296,9 +296,6 @@ impl<S: Simd> ClosestLeaves<S> for Search<'_, S> {
                 }
             }
         }
-        for (lane, ray) in rays.iter_mut().enumerate() {
-            ray.far = up_to(self.nearest.distance[lane]).min(ray.far);
-        }
     }
 }
 
@@ -313,7 +310,7 @@ struct Shadows<'a, S: Simd> {
 
 impl<S: Simd> AnyLeaves<S> for Shadows<'_, S> {
     #[inline(always)]
-    fn any(&mut self, simd: S, _rays: &[Ray], _lanes: u32, units: Range<usize>) -> u32 {
+    fn any(&mut self, simd: S, _lanes: u32, units: Range<usize>) -> u32 {
         for &item in &self.items[units] {
             let met = match item {
                 Item::Plain(leaf) => self.geometry.shape(leaf as usize).hit(simd, self.rays),
