@@ -77,7 +77,7 @@ pub(crate) fn run(
         }
         Target::OneFile(path, format) => {
             job::check_not_an_input(&path, input, &arguments.common)?;
-            job::check_not_imported(&path, &file)?;
+            job::check_not_read(&path, &file)?;
             animation.one_file(&path, format)
         }
     }
@@ -199,7 +199,7 @@ impl Animation<'_> {
         for frame in self.frames.first..=self.frames.last {
             let file = self.scene(frame)?;
             let name = pattern.name(frame);
-            job::check_not_imported(&name, &file)?;
+            job::check_not_read(&name, &file)?;
             let destination = Destination::file(&name).map_err(Error::from)?;
             let description = job::description(&file)?;
             match hray::render_to(description, self.options, &destination, format, &self.control) {
@@ -249,6 +249,7 @@ impl Animation<'_> {
     ) -> Result<(), Failure> {
         for frame in self.frames.first..=self.frames.last {
             let file = self.scene(frame)?;
+            job::check_not_read(path, &file)?;
             let description = job::description(&file)?;
             let (_, [width, height]) = self.pixels(description)?;
             if [width, height] != size {

@@ -5,7 +5,8 @@ use crate::console::Console;
 use crate::failure::Failure;
 use crate::summary::counted;
 use crate::{job, lint_args};
-use hray::{Finding, Findings, Input, SceneFile};
+use hray::{Finding, Findings, Input, LoadOptions, Quoted, SceneFile};
+use std::path::Path;
 
 /// What comes after the help: the warnings, and the shape of the JSON.
 pub(crate) fn after_help() -> String {
@@ -29,7 +30,10 @@ place that a finding is about comes first; a finding about a file as a whole has
 
 /// Shows the diagnostics of all scenes and counts them.
 pub(crate) fn run(arguments: &CheckArgs, console: &Console) -> Result<(), Failure> {
-    let load = arguments.scene.options(&arguments.lints.levels, arguments.time.unwrap_or(0.0));
+    let load = LoadOptions {
+        modules: true,
+        ..arguments.scene.options(&arguments.lints.levels, arguments.time.unwrap_or(0.0))
+    };
     let (mut errors, mut warnings) = (0, 0);
     let mut findings = Findings(Vec::new());
     for path in &arguments.inputs {
@@ -40,6 +44,11 @@ pub(crate) fn run(arguments: &CheckArgs, console: &Console) -> Result<(), Failur
                     findings.0.extend(file.findings().0);
                 } else {
                     console.say(job::report(&file, console));
+                    if let Some(definitions) = file.module() {
+                        let count = counted(definitions, "definition");
+                        let name = Quoted(Path::new(&input.name())).to_string();
+                        console.say(format_args!("{name} has no scene, only {count} for others to import\n"));
+                    }
                 }
                 errors += file.errors();
                 warnings += file.warnings();

@@ -38,7 +38,7 @@ pub(crate) fn run(arguments: &ClassicArgs, console: &Console) -> Result<(), Fail
     let destination = Destination::file(output).map_err(hray::Error::from)?;
     let load = LoadOptions { levels: arguments.lints.levels.clone(), ..LoadOptions::default() };
     let file = job::read_scene(&source, &load, console)?;
-    job::check_not_imported(output, &file)?;
+    job::check_not_read(output, &file)?;
     let noise_tables = job::noise_tables(&arguments.common)?;
     let options = Options { threads: arguments.common.threads, noise_tables, ..Options::default() };
 

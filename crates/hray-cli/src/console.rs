@@ -1,7 +1,9 @@
 //! What the command says, and where.
 
+use indicatif::ProgressBar;
 use std::fmt::Display;
 use std::io::{self, IsTerminal, Write};
+use std::sync::{Mutex, PoisonError};
 
 /// The terminal, or whatever stands in its place. Standard output is for what was asked for; everything else
 /// goes to standard error. Where standard error itself cannot be written to there is nobody left to tell, so
@@ -10,6 +12,8 @@ use std::io::{self, IsTerminal, Write};
 pub(crate) struct Console {
     interactive: bool,
     color: bool,
+    /// The bar that is being shown.
+    bar: Mutex<Option<ProgressBar>>,
 }
 
 impl Console {
@@ -19,7 +23,7 @@ impl Console {
         let interactive = io::stderr().is_terminal();
         let declined = std::env::var_os("NO_COLOR").is_some_and(|value| !value.is_empty());
         let dumb = std::env::var_os("TERM").is_none_or(|term| term == "dumb");
-        Self { interactive, color: interactive && !declined && !(dumb && cfg!(unix)) }
+        Self { interactive, color: interactive && !declined && !(dumb && cfg!(unix)), bar: Mutex::default() }
     }
 
     /// Whether somebody is watching standard error.
@@ -50,10 +54,30 @@ impl Console {
         }
     }
 
-    /// Writes text as it is to standard error.
+    /// Writes text as it is to standard error. A bar makes way for it.
     pub(crate) fn say(&self, text: impl Display) {
+        let text = text.to_string();
+        if text.is_empty() {
+            return;
+        }
         // In one piece, so that the lines of several processes do not mix.
-        let _ = io::stderr().lock().write_all(text.to_string().as_bytes());
+        let write = || {
+            let _ = io::stderr().lock().write_all(text.as_bytes());
+        };
+        match &*self.bar.lock().unwrap_or_else(PoisonError::into_inner) {
+            Some(bar) => bar.suspend(write),
+            None => write(),
+        }
+    }
+
+    /// Shows a bar while `action` runs.
+    pub(crate) fn with_bar<T>(&self, bar: &ProgressBar, action: impl FnOnce() -> T) -> T {
+        let set = |bar| *self.bar.lock().unwrap_or_else(PoisonError::into_inner) = bar;
+        set(Some(bar.clone()));
+        let result = action();
+        set(None);
+        bar.finish_and_clear();
+        result
     }
 
     /// Writes what was asked for to standard output. A reader who has left early had enough, which is no
@@ -67,5 +91,22 @@ impl Console {
             Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Ok(()),
             result => result,
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_bar_is_known_while_it_is_shown() {
+        let console = Console::new();
+        let bar = ProgressBar::hidden();
+        let is_known = || console.bar.lock().unwrap_or_else(PoisonError::into_inner).is_some();
+        let inside = console.with_bar(&bar, || {
+            console.say("\n");
+            is_known()
+        });
+        assert!(inside && !is_known() && bar.is_finished());
     }
 }

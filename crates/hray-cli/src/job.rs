@@ -56,8 +56,11 @@ pub(crate) fn check_not_an_input(output: &Path, input: &Input, common: &CommonAr
     }
 }
 
-/// Refuses to replace a file that the scene imports.
-pub(crate) fn check_not_imported(output: &Path, file: &SceneFile) -> Result<(), Failure> {
+/// Refuses to replace a file that the scene imports, or an image that it uses.
+pub(crate) fn check_not_read(output: &Path, file: &SceneFile) -> Result<(), Failure> {
+    if file.images().iter().any(|image| hray::same_file(output, image)) {
+        return Err(would_replace(output, "an image that the scene uses,"));
+    }
     let mut imported = file.sources().files().iter().skip(1);
     if imported.any(|source| hray::same_file(output, Path::new(&source.name))) {
         return Err(would_replace(output, "a file that the scene imports,"));

@@ -35,20 +35,21 @@ pub(crate) fn watching<T>(
             if let Ok(style) = ProgressStyle::with_template(TEMPLATE) {
                 bar.set_style(style.progress_chars("=> "));
             }
-            loop {
-                let done = control.pixels_done().min(pixels);
-                bar.set_position(done);
-                bar.set_message(match time_left(start.elapsed(), done, pixels) {
-                    _ if control.is_cancelled() => "stopping".to_owned(),
-                    None => "time unknown".to_owned(),
-                    Some(left) if left < Duration::from_secs(1) => "a moment left".to_owned(),
-                    Some(left) => format!("{} left", HumanDuration(left)),
-                });
-                if !matches!(wait.recv_timeout(REFRESH), Err(RecvTimeoutError::Timeout)) {
-                    break;
+            console.with_bar(&bar, || {
+                loop {
+                    let done = control.pixels_done().min(pixels);
+                    bar.set_position(done);
+                    bar.set_message(match time_left(start.elapsed(), done, pixels) {
+                        _ if control.is_cancelled() => "stopping".to_owned(),
+                        None => "time unknown".to_owned(),
+                        Some(left) if left < Duration::from_secs(1) => "a moment left".to_owned(),
+                        Some(left) => format!("{} left", HumanDuration(left)),
+                    });
+                    if !matches!(wait.recv_timeout(REFRESH), Err(RecvTimeoutError::Timeout)) {
+                        break;
+                    }
                 }
-            }
-            bar.finish_and_clear();
+            });
         });
         let result = render();
         drop(done);

@@ -30,7 +30,7 @@ pub(crate) fn run(arguments: &RenderArgs, console: &Console) -> Result<(), Failu
     if time.is_some() {
         animate::warn_of_a_still(&file, console, "every moment of it is the same");
     }
-    job::check_not_imported(&output, &file)?;
+    job::check_not_read(&output, &file)?;
     let description = job::description(&file)?;
     let options = options(arguments)?;
     warn_of_another_shape(&options, description, console);

@@ -60,6 +60,7 @@ impl SceneArgs {
             set: self.set.clone(),
             time,
             limits: self.limits.limits(),
+            modules: false,
         }
     }
 }

@@ -139,6 +139,91 @@ fn a_file_that_is_imported_is_not_replaced() {
     folder.run("render a.hry -o palette.ppm").says(2, &["would replace a file that the scene imports"]);
     folder.run("a.hry palette.ppm").says(2, &["would replace a file that the scene imports"]);
     assert_eq!(folder.read("palette.ppm"), b"warm = gold\n");
+    std::fs::create_dir(folder.path("deep")).unwrap();
+    folder.write("deep/a.hry", "import \"../palette.ppm\"\nscene = { size = (4, 3), background = warm }\n");
+    folder
+        .run_in("deep", "render a.hry --root .. -o ../palette.ppm")
+        .says(2, &["would replace a file that the scene imports"]);
+}
+
+#[test]
+fn an_image_that_is_used_is_not_replaced() {
+    let folder = folder();
+    folder.run("render row.hry -o map.png").says(0, &[]);
+    let map = folder.read("map.png");
+    let scene = "paper = image \"map.png\"
+scene = { size = (4, 3), objects = [sphere { material = classic { color = imageMap paper } }] }\n";
+    folder.write("map.hry", scene);
+    let refusal = "would replace an image that the scene uses, `map.png`";
+    folder.run("render map.hry").says(2, &[refusal]);
+    folder.run("render map.hry -o map.png").says(2, &[refusal]);
+    folder.run("render map.hry -o ./map.png").says(2, &["would replace an image"]);
+    std::fs::create_dir(folder.path("deep")).unwrap();
+    folder.run_in("deep", "render ../map.hry -o ../map.png").says(2, &["would replace an image"]);
+    folder.write("1.png", &map);
+    folder.write("moves.hry", scene.replace("map.png", "1.png").replace("scene =", "scene time ="));
+    folder
+        .run("render moves.hry --frames 0..1 -o #.png")
+        .says(2, &["would replace an image that the scene uses, `1.png`"]);
+    folder.write("map.apng", &map);
+    folder.write("late.hry", scene.replace("map.png", "map.apng").replace("scene =", "scene time ="));
+    folder.run("render late.hry --frames 0..1 -o map.apng").says(2, &["would replace an image"]);
+    assert!(folder.read("map.png") == map && folder.read("1.png") == map && folder.read("map.apng") == map);
+}
+
+#[test]
+fn files_are_called_as_they_are_found_from_here() {
+    let folder = folder();
+    std::fs::create_dir_all(folder.path("a/b")).unwrap();
+    folder.write("palette.hry", "warm = gold +\n");
+    folder.write("a/other.hry", "cold = sky +\n");
+    folder.write("a/b/use.hry", "import \"../../palette.hry\"\nimport \"../other.hry\"\nscene = {}\n");
+    folder.run("check a/b/use.hry --root .").says(1, &["--> palette.hry:1:", "--> a/other.hry:1:"]);
+    folder
+        .run_in("a/b", "check use.hry --root ../..")
+        .says(1, &["--> ../../palette.hry:1:", "--> ../other.hry:1:"]);
+    folder.run_in("a", "check b/use.hry --root ..").says(1, &["--> ../palette.hry:1:", "--> other.hry:1:"]);
+    // What is read is not decided by what it is called.
+    folder.run("render row.hry -o a/map.png").says(0, &[]);
+    folder.write("a/b/map.hry", "scene = { depth = floor (aspect (image \"../map.png\")) }\n");
+    folder.run_in("a/b", "check map.hry --root ../..").says(0, &["no errors"]);
+    folder
+        .run_in("a/b", "check map.hry --root ../.. --set scene={depth=floor(aspect(image\"../map.png\"))}")
+        .says(0, &[]);
+}
+
+#[test]
+fn a_file_without_a_scene_can_be_checked_and_not_rendered() {
+    let folder = folder();
+    folder.write("palette.hry", "warm : Color\nwarm = gold\ncold = sky\n");
+    folder.run("check palette.hry row.hry").says(
+        0,
+        &[
+            "`palette.hry` has no scene, only 2 definitions for others to import",
+            "checked 2 files: no errors",
+        ],
+    );
+    assert_eq!(folder.run("check palette.hry --json").stdout(), "[]\n");
+    for command in ["render palette.hry", "info palette.hry"] {
+        folder.run(command).says(1, &["error[no-scene]", "the smallest scene"]);
+    }
+    folder.write("wrong.hry", "warm : Number\nwarm = gold\n");
+    let outcome = folder.run("check wrong.hry");
+    outcome.says(1, &["wrong.hry:2:8", "1 error"]);
+    assert!(!outcome.stderr.contains("no-scene"), "{}", outcome.stderr);
+    folder.write("typo.hry", "scnee = { objects = [] }\n");
+    folder.run("check typo.hry").says(1, &["error[no-scene]", "what is rendered is called `scene`"]);
+}
+
+#[test]
+fn a_value_of_another_type_can_be_set_where_it_fits() {
+    let folder = folder();
+    let scene = "paint : Color\npaint = gold\nballs : Number\nballs = 2
+scene = { size = (4, 3), depth = balls, objects = [sphere { material = classic { color = paint } }] }\n";
+    folder.write("a.hry", scene);
+    folder.run("check a.hry --set paint=\\h->gold*h.u").says(1, &["error"]);
+    folder.run("check a.hry --set paint=\\h->gold*h.uv.x").says(0, &["no errors"]);
+    folder.run("check a.hry --set balls=red").says(1, &["--set balls:1:9", "a.hry:3:9"]);
 }
 
 #[test]
@@ -162,7 +247,7 @@ fn a_file_that_is_nearly_classic_is_told_so_and_one_without_a_scene_too() {
     folder.write("typo.hry", SCENE.replace("renderDescr", "renderDesc"));
     folder.run("check typo.hry").says(1, &["`renderDescr`"]);
     folder.write("none.hry", "ball = sphere {}\n");
-    folder.run("check none.hry").says(1, &["none.hry", "scene"]);
+    folder.run("info none.hry").says(1, &["none.hry", "scene"]);
     folder.write("empty.hry", "");
     folder.run("check empty.hry").says(1, &["empty.hry", "scene"]);
 }

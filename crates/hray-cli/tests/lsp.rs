@@ -522,3 +522,20 @@ fn nothing_that_a_client_sends_ends_the_conversation() {
     drop(client.input.take());
     assert_eq!(client.exit_code(), Some(1));
 }
+
+#[test]
+fn uses_are_found_anywhere_in_the_workspace() {
+    let mut client = opened(json!({}));
+    fs::create_dir_all(client.path("a/b")).unwrap();
+    let other = "import \"../../palette.hry\" as p\nscene = { background = p.ink, depth = ink }\nink = 2\n";
+    fs::write(client.path("a/b/other.hry"), other).unwrap();
+    fs::write(client.path("a/none.hry"), "ink = 3\n").unwrap();
+    let params = client.with("scene.hry", 5, 39, json!({ "context": { "includeDeclaration": true } }));
+    let places = client.request("textDocument/references", params);
+    assert_eq!(places.as_array().unwrap().len(), 5, "{places}");
+    let params = client.with("scene.hry", 5, 39, json!({ "newName": "dark" }));
+    let changes = client.request("textDocument/rename", params)["changes"].clone();
+    assert_eq!(changes.as_object().unwrap().len(), 3, "{changes}");
+    let renamed = edited(other, &changes[client.uri("a/b/other.hry")]);
+    assert_eq!(renamed, other.replace("p.ink", "p.dark"));
+}

@@ -9,6 +9,8 @@ use std::path::{Component, Path, PathBuf};
 
 /// The most names of a folder that are looked at for "did you mean".
 const MOST_NAMES: usize = 1000;
+/// The most files and folders that are looked at to find those of a kind.
+const MOST_ENTRIES: usize = 20_000;
 
 /// A folder whose files may be read, and no others: not by `..`, not by absolute paths, not through links that lead out.
 #[derive(Clone, Debug)]
@@ -56,6 +58,12 @@ impl Folder {
         Some(parts?.join("/"))
     }
 
+    /// The path from the file system's root to what `path` is in this folder, which need not exist.
+    #[must_use]
+    pub fn full_path(&self, path: &str) -> PathBuf {
+        self.root.join(path)
+    }
+
     /// The bytes of a text, [`MAX_SOURCE_BYTES`] at most.
     ///
     /// # Errors
@@ -85,6 +93,36 @@ impl Folder {
             names.map(|name| if before.is_empty() { name } else { format!("{before}/{name}") }).collect();
         paths.sort();
         paths
+    }
+
+    /// The paths of the files below this folder whose names end like `ending`, those of each folder before those further
+    /// down, sorted: `most` of them at most, and not those of a very large folder that lie last. Hidden folders are passed
+    /// over, and so are links to folders, which may lead in circles.
+    #[must_use]
+    pub fn below(&self, ending: &str, most: usize) -> Vec<String> {
+        let (mut found, mut looked_at) = (Vec::new(), 0);
+        let mut level = vec![String::new()];
+        while !level.is_empty() && found.len() < most && looked_at < MOST_ENTRIES {
+            let mut next = Vec::new();
+            for folder in level {
+                let Ok(entries) = fs::read_dir(self.root.join(&folder)) else { continue };
+                for entry in entries.flatten().take(MOST_ENTRIES - looked_at) {
+                    looked_at += 1;
+                    let Ok(name) = entry.file_name().into_string() else { continue };
+                    let path = if folder.is_empty() { name.clone() } else { format!("{folder}/{name}") };
+                    match entry.file_type() {
+                        Ok(kind) if kind.is_dir() && !name.starts_with('.') => next.push(path),
+                        Ok(kind) if !kind.is_dir() && name.ends_with(ending) => found.push(path),
+                        _ => {}
+                    }
+                }
+            }
+            next.sort();
+            level = next;
+        }
+        found.sort_by(|a, b| (a.matches('/').count(), a).cmp(&(b.matches('/').count(), b)));
+        found.truncate(most);
+        found
     }
 
     /// The true path of what `path` leads to, which lies in the folder.
@@ -155,6 +193,20 @@ mod tests {
         assert_eq!(folder.neighbours("x.hry"), ["a.hry"]);
         assert_eq!(folder.neighbours("sub/x.hry"), ["sub/b.hry"]);
         assert!(folder.neighbours("../x").is_empty() && folder.neighbours("none/x").is_empty());
+    }
+
+    #[test]
+    fn files_of_a_kind_are_found_below() {
+        let (outer, folder) = folders();
+        let inner = outer.path().join("inner");
+        for path in ["sub/deep", ".hidden"] {
+            fs::create_dir_all(inner.join(path)).unwrap();
+        }
+        for path in ["z.hry", "a.png", "sub/deep/c.hry", ".hidden/d.hry"] {
+            fs::write(inner.join(path), "").unwrap();
+        }
+        assert_eq!(folder.below(".hry", 9), ["a.hry", "z.hry", "sub/b.hry", "sub/deep/c.hry"]);
+        assert_eq!(folder.below(".hry", 2), ["a.hry", "z.hry"]);
     }
 
     #[cfg(unix)]

@@ -4,7 +4,7 @@ use crate::{Image, Input, InputError};
 use hray_io::{Folder, FolderError};
 use hray_lang::hry::assets::{AssetError, Assets};
 use std::collections::BTreeMap;
-use std::path::Path;
+use std::path::{Path, PathBuf, is_separator};
 use std::sync::{Arc, Mutex, PoisonError};
 
 /// What an hry scene is called that has no path.
@@ -14,6 +14,7 @@ const NO_PATH: &str = "scene.hry";
 #[derive(Debug)]
 pub(crate) struct FolderAssets {
     folder: Option<Folder>,
+    names: Names,
     /// Images that were read already, by their paths.
     images: Mutex<BTreeMap<String, Arc<Image>>>,
 }
@@ -25,25 +26,36 @@ impl FolderAssets {
         let Input::File(path) = input else { return Self::without_file(root) };
         let folder = Folder::open(root.or(path.parent()).unwrap_or(Path::new("")))?;
         match (folder.path_to(path), root) {
-            (Some(inside), _) => Ok((Self::new(Some(folder)), inside)),
+            (Some(inside), _) => {
+                let names = Names::beside(&path.to_string_lossy(), &inside);
+                Ok((Self::new(Some(folder), names), inside))
+            }
             (None, Some(root)) => Err(InputError::OutsideRoot { path: path.clone(), root: root.to_owned() }),
             // Only what is no ordinary file, or has a name that is not UTF-8.
-            (None, None) => Ok((Self::new(Some(folder)), NO_PATH.to_owned())),
+            (None, None) => Ok((Self::new(Some(folder), Names::default()), NO_PATH.to_owned())),
         }
     }
 
     /// What a scene may read that is in no file: a folder where one is given.
     pub(crate) fn without_file(root: Option<&Path>) -> Result<(Self, String), InputError> {
-        Ok((Self::new(root.map(Folder::open).transpose()?), NO_PATH.to_owned()))
+        let names = root.map_or_else(Names::default, |root| Names::inside(&root.to_string_lossy()));
+        Ok((Self::new(root.map(Folder::open).transpose()?, names), NO_PATH.to_owned()))
     }
 
     /// Nothing to read.
     pub(crate) fn nothing() -> Self {
-        Self::new(None)
+        Self::new(None, Names::default())
     }
 
-    fn new(folder: Option<Folder>) -> Self {
-        Self { folder, images: Mutex::default() }
+    fn new(folder: Option<Folder>, names: Names) -> Self {
+        Self { folder, names, images: Mutex::default() }
+    }
+
+    /// The images that were read so far: the paths that lead to them from anywhere.
+    pub(crate) fn images_read(&self) -> Vec<PathBuf> {
+        let images = self.images.lock().unwrap_or_else(PoisonError::into_inner);
+        let full = |folder: &Folder| images.keys().map(|path| folder.full_path(path)).collect();
+        self.folder.as_ref().map_or_else(Vec::new, full)
     }
 
     fn folder(&self) -> Result<&Folder, AssetError> {
@@ -73,6 +85,51 @@ impl Assets for FolderAssets {
     fn neighbours(&self, path: &str) -> Vec<String> {
         self.folder.as_ref().map_or_else(Vec::new, |folder| folder.neighbours(path))
     }
+
+    fn name(&self, path: &str) -> String {
+        self.names.of(path)
+    }
+}
+
+/// How the files of a folder are called: by paths that lead to them from where the program was started.
+#[derive(Debug, Default)]
+struct Names {
+    /// The path, as the user writes it, of a folder that lies in the root folder or is it; with a slash where not empty.
+    known: String,
+    /// Where in the root folder that one is, folder by folder.
+    inside: Vec<String>,
+}
+
+impl Names {
+    /// For the root folder at a path.
+    fn inside(root: &str) -> Self {
+        let slash = if root.is_empty() || root.ends_with(is_separator) { "" } else { "/" };
+        Self { known: if root == "." { String::new() } else { format!("{root}{slash}") }, inside: Vec::new() }
+    }
+
+    /// For the folder in which the file that the user calls `written` is `path`.
+    fn beside(written: &str, path: &str) -> Self {
+        let mut inside: Vec<String> = path.split('/').map(str::to_owned).collect();
+        inside.pop();
+        let mut known = written.get(..written.rfind(is_separator).map_or(0, |slash| slash + 1)).unwrap_or("");
+        // What the two end in alike needs no way back: where `scenes` is the folder of `a/scenes/b.hry`, it is `a/` that
+        // the folder around is called, and not `a/scenes/../`.
+        while let Some(before) = inside.last().and_then(|name| {
+            let before = known.strip_suffix(is_separator)?.strip_suffix(name.as_str())?;
+            (before.is_empty() || before.ends_with(is_separator)).then_some(before)
+        }) {
+            known = before;
+            inside.pop();
+        }
+        Self { known: known.to_owned(), inside }
+    }
+
+    fn of(&self, path: &str) -> String {
+        let parts: Vec<&str> = path.split('/').collect();
+        let alike = self.inside.iter().zip(&parts).take_while(|(a, b)| a == *b).count();
+        let back = "../".repeat(self.inside.len() - alike);
+        format!("{}{back}{}", self.known, parts.get(alike..).unwrap_or(&[]).join("/"))
+    }
 }
 
 fn unavailable(error: FolderError) -> AssetError {
@@ -81,5 +138,30 @@ fn unavailable(error: FolderError) -> AssetError {
         FolderError::Outside => AssetError::Outside,
         FolderError::Input(error) => AssetError::Unreadable(error.reason()),
         _ => AssetError::Unreadable("it is not to be had".to_owned()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Names;
+
+    #[test]
+    fn files_are_called_by_paths_that_lead_to_them() {
+        let name = |written, path, other| Names::beside(written, path).of(other);
+        assert_eq!(name("use.hry", "use.hry", "parts/palette.hry"), "parts/palette.hry");
+        assert_eq!(name("parts/use.hry", "use.hry", "palette.hry"), "parts/palette.hry");
+        assert_eq!(name("./use.hry", "use.hry", "palette.hry"), "./palette.hry");
+        assert_eq!(name("a/deep/use.hry", "deep/use.hry", "palette.hry"), "a/palette.hry");
+        assert_eq!(name("/a/deep/use.hry", "a/deep/use.hry", "palette.hry"), "/palette.hry");
+        // The root is further up than where the user is.
+        assert_eq!(name("use.hry", "deep/use.hry", "palette.hry"), "../palette.hry");
+        assert_eq!(name("use.hry", "a/deep/use.hry", "a/palette.hry"), "../palette.hry");
+        assert_eq!(name("use.hry", "a/deep/use.hry", "a/deep/x/y.hry"), "x/y.hry");
+        assert_eq!(name("link/use.hry", "deep/use.hry", "palette.hry"), "link/../palette.hry");
+        for (root, name) in
+            [("", "p.hry"), (".", "p.hry"), ("a", "a/p.hry"), ("a/", "a/p.hry"), ("..", "../p.hry")]
+        {
+            assert_eq!(Names::inside(root).of("p.hry"), name, "{root}");
+        }
     }
 }

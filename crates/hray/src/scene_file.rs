@@ -23,6 +23,8 @@ pub struct LoadOptions {
     pub time: f64,
     /// How much the evaluation of an hry scene may take.
     pub limits: Limits,
+    /// Whether a file in hry may do without a scene, as one does that is there to be imported. Otherwise that is an error.
+    pub modules: bool,
 }
 
 /// A scene as it was read, with its diagnostics.
@@ -33,6 +35,8 @@ pub struct SceneFile {
     description: Option<Description>,
     diagnostics: Vec<Diagnostic>,
     animated: bool,
+    /// How many definitions there are in a file without a scene.
+    module: Option<usize>,
     /// What an hry scene without errors is evaluated from.
     checked: Option<Arc<CheckedScene>>,
 }
@@ -106,7 +110,7 @@ impl SceneFile {
     ) -> Self {
         let mut sources = Sources::default();
         sources.add(name.to_owned(), text.into());
-        Self { language, sources, description, diagnostics, animated: false, checked: None }
+        Self { language, sources, description, diagnostics, animated: false, module: None, checked: None }
     }
 
     fn classic(name: &str, text: String, options: &LoadOptions) -> Self {
@@ -123,8 +127,23 @@ impl SceneFile {
 
     fn hry(name: &str, path: &str, text: Arc<str>, assets: FolderAssets, options: &LoadOptions) -> Self {
         let mut diagnostics = Vec::new();
-        let program = Program::load(name, path, text, &options.set, &assets, &mut diagnostics);
+        let mut program = Program::load(name, path, text, &options.set, &assets, &mut diagnostics);
+        let read = diagnostics.clone();
         types::check(&program, &mut diagnostics);
+        // A value that is set may be of another type than the one it replaces, as long as that fits everywhere.
+        if diagnostics.iter().any(Diagnostic::is_error)
+            && let Some(free) = program.without_annotations()
+        {
+            let mut found = read;
+            types::check(&free, &mut found);
+            if !found.iter().any(Diagnostic::is_error) {
+                (program, diagnostics) = (free, found);
+            }
+        }
+        let module = if options.modules { definitions_of_module(&program, &diagnostics) } else { None };
+        if module.is_some() {
+            diagnostics.retain(|diagnostic| diagnostic.code != NO_SCENE);
+        }
         lint::apply(&options.levels, &mut diagnostics);
         let mut file = Self {
             language: Language::Hry,
@@ -132,9 +151,10 @@ impl SceneFile {
             description: None,
             diagnostics: diagnostics.clone(),
             animated: false,
+            module,
             checked: None,
         };
-        if file.errors() > 0 {
+        if file.errors() > 0 || module.is_some() {
             return file;
         }
         let checked =
@@ -169,6 +189,19 @@ impl SceneFile {
     #[must_use]
     pub const fn is_animated(&self) -> bool {
         self.animated
+    }
+
+    /// How many definitions there are in a file that has no scene, and need not have one: see [`LoadOptions::modules`].
+    #[must_use]
+    pub const fn module(&self) -> Option<usize> {
+        self.module
+    }
+
+    /// The images that it was made from, where it is a scene in hry: the paths that lead to them. Those that only a later
+    /// moment needs are there once that was asked for.
+    #[must_use]
+    pub fn images(&self) -> Vec<PathBuf> {
+        self.checked.as_ref().map_or_else(Vec::new, |checked| checked.assets.images_read())
     }
 
     /// What the scene file describes; none where it has errors.
@@ -249,12 +282,24 @@ impl Moments<'_> {
             description: None,
             diagnostics: checked.warnings.clone(),
             animated: evaluated.animated,
+            module: None,
             checked: Some(checked.clone()),
         };
         file.diagnostics.append(&mut evaluated.diagnostics);
         file.description = evaluated.description.filter(|_| file.errors() == 0);
         file
     }
+}
+
+/// The code of the complaint about a file without a scene.
+const NO_SCENE: &str = "no-scene";
+
+/// How many definitions there are in a file that is there to be imported: it defines something, and nothing that was
+/// probably meant to be the scene.
+fn definitions_of_module(program: &Program, diagnostics: &[Diagnostic]) -> Option<usize> {
+    let is_module = |found: &Diagnostic| found.code == NO_SCENE && found.suggestion.is_none();
+    let count = program.root()?.syntax.definitions.len();
+    (count > 0 && diagnostics.iter().any(is_module)).then_some(count)
 }
 
 fn nothing_to_set(name: &str) -> Diagnostic {

@@ -41,6 +41,12 @@ impl WorkFolder {
         self.folder.as_ref()?.path_to(file)
     }
 
+    /// The paths of the scenes in it and in the folders below, at most so many.
+    #[must_use]
+    pub fn scenes(&self, most: usize) -> Vec<String> {
+        self.folder.as_ref().map_or_else(Vec::new, |folder| folder.below(".hry", most))
+    }
+
     /// What its scenes may read.
     #[must_use]
     pub fn with<'a>(&'a self, open: &'a OpenTexts) -> WorkAssets<'a> {

@@ -16,12 +16,13 @@ use std::path::PathBuf;
 use std::str::FromStr;
 use std::sync::Arc;
 
-/// So many files beside a definition are looked at for uses of it.
+/// So many files that are not open are looked at for uses of a definition, and no more text than this.
 const MOST_NEIGHBOURS: usize = 1000;
+const MOST_TEXT: usize = 16 << 20;
 
 impl Server {
-    /// Analyses of the open texts of a folder, and of files that lie beside a text or a definition it uses: whatever else may
-    /// use that definition.
+    /// Analyses of the open texts of a folder, of files that lie beside a text or a definition it uses, and of those
+    /// anywhere below a folder that the client works in: whatever else may use that definition.
     pub(super) fn neighbours(
         &mut self,
         root: &Option<PathBuf>,
@@ -41,15 +42,21 @@ impl Server {
         let FileId::Own(path) = &defined.file else { return found };
         let beside = [path.as_str(), analysis.path()].into_iter().flat_map(|path| assets.neighbours(path));
         let beside: BTreeSet<String> = beside.filter(|path| path.ends_with(".hry")).collect();
-        for path in beside.into_iter().take(MOST_NEIGHBOURS) {
+        let in_workspace = root.as_ref().is_some_and(|root| self.workspace.contains(root));
+        let below = if in_workspace { folder.scenes(MOST_NEIGHBOURS) } else { Vec::new() };
+        let below = below.into_iter().filter(|path| !beside.contains(path));
+        let name = assets.text(path).map(|text| defined.span.text(&text).to_owned()).unwrap_or_default();
+        let mut room = MOST_TEXT;
+        for path in beside.iter().cloned().chain(below).take(MOST_NEIGHBOURS) {
             if texts.contains_key(&path) {
                 continue;
             }
-            match assets.text(&path) {
-                Ok(text) if text.contains("import") => {
-                    found.push(Arc::new(Analysis::new(&path, text.into(), &assets)));
-                }
-                _ => {}
+            let Ok(text) = assets.text(&path) else { continue };
+            let Some(left) = room.checked_sub(text.len()) else { break };
+            room = left;
+            // Whoever uses a definition of another file imports that file, and says its name.
+            if text.contains("import") && text.contains(&name) {
+                found.push(Arc::new(Analysis::new(&path, text.into(), &assets)));
             }
         }
         found

@@ -45,7 +45,7 @@ pub(crate) struct Server {
     /// By the URI that the client gave.
     pub(super) documents: BTreeMap<String, Document>,
     /// The folders that the client works in.
-    workspace: Vec<PathBuf>,
+    pub(super) workspace: Vec<PathBuf>,
     /// By their roots; those that were asked for.
     folders: BTreeMap<Option<PathBuf>, Arc<WorkFolder>>,
     output: Output,

@@ -72,6 +72,13 @@ impl Folder {
         self.run_with_input(arguments, b"")
     }
 
+    /// The same, started in a folder inside.
+    pub(crate) fn run_in(&self, inside: &str, arguments: &str) -> Outcome {
+        let mut command = self.command();
+        command.current_dir(self.path(inside));
+        Outcome::of(command.args(arguments.split_whitespace()).output().unwrap())
+    }
+
     /// The same with something on the standard input.
     pub(crate) fn run_with_input(&self, arguments: &str, input: &[u8]) -> Outcome {
         let mut command = assert_cmd::Command::from_std(self.command());

@@ -23,6 +23,11 @@ pub trait Assets {
 
     /// Files whose names might have been meant, for "did you mean": those in the same folder.
     fn neighbours(&self, path: &str) -> Vec<String>;
+
+    /// What a file is called in messages: a path that leads to it from where the user is.
+    fn name(&self, path: &str) -> String {
+        path.to_owned()
+    }
 }
 
 /// Why an asset is not to be had.

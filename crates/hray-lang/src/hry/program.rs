@@ -22,8 +22,6 @@ pub struct Program {
     pub modules: Vec<Arc<LoadedModule>>,
     /// The scene itself, in `modules`.
     pub root: usize,
-    /// What precedes the path of a file, relative to the root folder, in its name.
-    folder: String,
     /// Definitions of the root that were replaced from outside (`--set`), by name.
     pub overrides: Vec<(Arc<str>, Span)>,
 }
@@ -124,7 +122,7 @@ pub fn standard() -> &'static Standard {
                 }
             }
             let name = format!("{}.hry of the library", standard.name);
-            files.push(SourceFile { name, text: standard.text.into(), base });
+            files.push(SourceFile { path: name.clone(), name, text: standard.text.into(), base });
             base += standard.text.len() + 1;
             let (path, scope) = (standard.name.to_owned(), Scope::default());
             modules.push(Arc::new(LoadedModule { path, syntax, scope, is_standard: true }));
@@ -153,27 +151,28 @@ impl Program {
             modules: standard().modules.clone(),
             loaded: HashMap::new(),
             open: Vec::new(),
-            folder: name.strip_suffix(path).unwrap_or("").to_owned(),
             assets,
             diagnostics,
         };
-        let base = loader.sources.add(name.to_owned(), text.clone());
+        let base = loader.sources.add_at(name.to_owned(), path.to_owned(), text.clone());
         let mut syntax = loader.parse(&text, base);
-        let replaced = loader.replace(&mut syntax, overrides);
+        let replaced = loader.replace(&mut syntax, path, overrides);
         let root = loader.finish(path.to_owned(), syntax);
-        Self {
-            sources: loader.sources,
-            modules: loader.modules,
-            root,
-            folder: loader.folder,
-            overrides: replaced,
-        }
+        Self { sources: loader.sources, modules: loader.modules, root, overrides: replaced }
     }
 
-    /// The path, relative to the root folder, of the file with that name in messages.
+    /// The same program without the type annotations of what was replaced from outside: a value that is set may be of
+    /// another type. None where there are no such annotations.
     #[must_use]
-    pub fn path_of(&self, name: &str) -> String {
-        name.strip_prefix(&self.folder).unwrap_or(name).to_owned()
+    pub fn without_annotations(&self) -> Option<Self> {
+        let mut program = self.clone();
+        let root = Arc::make_mut(program.modules.get_mut(self.root)?);
+        let is_set = |d: &Definition| {
+            d.name().is_some_and(|name| self.overrides.iter().any(|(set, _)| *set == name.text))
+        };
+        let set = root.syntax.definitions.iter_mut().filter(|definition| is_set(definition));
+        let dropped = set.filter_map(|definition| definition.annotation.take()).count();
+        (dropped > 0).then_some(program)
     }
 
     /// The definition of a global, where it is one.
@@ -196,8 +195,6 @@ struct Loader<'a> {
     loaded: HashMap<String, Option<usize>>,
     /// The paths of the files that are being read, each imported by the one before.
     open: Vec<String>,
-    /// What precedes a path in the names of files in messages.
-    folder: String,
     assets: &'a dyn Assets,
     diagnostics: &'a mut Vec<Diagnostic>,
 }
@@ -211,10 +208,17 @@ impl Loader<'_> {
     }
 
     /// Replaces definitions by expressions from outside.
-    fn replace(&mut self, syntax: &mut Module, overrides: &[(String, String)]) -> Vec<(Arc<str>, Span)> {
+    fn replace(
+        &mut self,
+        syntax: &mut Module,
+        path: &str,
+        overrides: &[(String, String)],
+    ) -> Vec<(Arc<str>, Span)> {
         let mut replaced = Vec::new();
         for (name, text) in overrides {
-            let file = self.sources.add(format!("--set {name}"), format!("{name} = {text}").into());
+            // What it reads, it reads from the folder of the scene.
+            let (called, text) = (format!("--set {name}"), format!("{name} = {text}"));
+            let file = self.sources.add_at(called, path.to_owned(), text.into());
             let text = self.sources.files().get(file).map_or_else(|| "".into(), |file| file.text.clone());
             let mut given = self.parse(&text, file);
             let found = syntax.definitions.iter().position(|d| d.name().is_some_and(|n| *n.text == **name));
@@ -323,7 +327,7 @@ impl Loader<'_> {
         match self.assets.text(path) {
             Ok(text) => {
                 let text: Arc<str> = text.into();
-                let file = self.sources.add(format!("{}{path}", self.folder), text.clone());
+                let file = self.sources.add_at(self.assets.name(path), path.to_owned(), text.clone());
                 let syntax = self.parse(&text, file);
                 Some(self.finish(path.to_owned(), syntax))
             }

@@ -9,6 +9,8 @@ use std::sync::Arc;
 pub struct SourceFile {
     /// What it is called in messages.
     pub name: String,
+    /// Its path in the root folder; of a text in no file that of the file it belongs to.
+    pub path: String,
     /// Its text.
     pub text: Arc<str>,
     /// The offset of its first byte.
@@ -30,8 +32,13 @@ impl Sources {
     /// Adds a file after all others; its place among the files. There is an offset between two files, so that the end of
     /// one is not the start of the next.
     pub fn add(&mut self, name: String, text: Arc<str>) -> usize {
+        self.add_at(name.clone(), name, text)
+    }
+
+    /// The same of a file whose path in the root folder is not its name.
+    pub fn add_at(&mut self, name: String, path: String, text: Arc<str>) -> usize {
         let base = self.files.last().map_or(0, |last| last.base + last.text.len() + 1);
-        self.files.push(SourceFile { name, text, base });
+        self.files.push(SourceFile { name, path, text, base });
         self.files.len() - 1
     }
 

@@ -29,6 +29,10 @@ mistakes! {
     noise_of_1985_outside: "scene = { objects = [sphere { radius = 2 + perlin1985 0 (1, 2, 3) }] }";
     flat: "scene = { objects = [sphere {} |> stretch (1, 0, 1)] }";
     axis_of_zero: "scene = { objects = [sphere {} |> rotate (0, 0, 0) 30deg] }";
+    flat_after_a_variable: "by = 0\nscene = { objects = [sphere {} |> translate up |> scale by] }";
+    flat_call: "scene = { objects = [stretch (0, 2, 0) (sphere {})] }";
+    flat_matrix: "scene = { objects = [sphere {} |> matrix { x = right, y = right, z = up, origin = (0, 0, 0) }] }";
+    flat_in_a_function: "thin n shape = shape |> scale n\nscene = { objects = [sphere {} |> thin 0] }";
     moved_window: "scene = { camera = translate (1, 0, 0) (window { eye = (0, 0, 9), size = (4, 3) }) }";
     range_without_steps: "scene = { objects = [sphere { radius = sum [1, 1 .. 5] }] }";
     slope_of_a_loop: "f h = iterate 9 (\\x -> x > h.p.y) (\\x -> x * 2) h.p.x\nscene = { objects = [sphere { material = classic { bump = f } }] }";

@@ -136,5 +136,21 @@ b = sphere { radius = 0.4, center = (0, 0.4, 0), material = classic { color = go
     comments_anywhere: "-- top\n\n{- block -} a = {- in -} 1 -- end\n-- between\nb = f -- first\n  x {- y -} z\n-- last";
     imports: "import   \"a.hry\"\nimport \"b.hry\" ( x,y, )\nimport \"c.hry\"   as   c\na = c.x\n";
     annotations: "a:Number->Number\na x=x\nb : {a:Number,b:[Vec3]}->(a->b)->Color\nb r f = #fff\nc = (1:Number)\n";
+    long_updates: "a = { floor | color = checker aFirstColourOfSome aSecondColour, reflection = 0.3, shine = 60, ior = 1.5 }
+b = { floor |
+  color = gold, -- like the ring
+  shine = 3, }
+c = { floor
+  | -- why
+    color = gold }
+d = f { floor | x = 1,
+y = 2 } { floor |
+ x = 1 }\n";
+    rests: "a l = match l { [ .. rest] -> rest, [x, .. ] -> x, [_,..others] -> 1 }\n";
+    appended: "a = [sphere { radius = 1 }, sphere { radius = 2 }] ++ ring 12 2.4 (sphere { radius = 0.25 }) ++ moreOfThem
+b = { objects = [floor, ball] ++ [sphere { radius = 0.3, center = (i, 0, 0), material = classic { color = gold } } | i <- [0 .. 9]] }\n";
+    parenthesised_arguments: "a = difference (box { size = (1, 1, 1), material = classic { color = gold } }) (sphere { radius = 0.6, center = up })
+b = translate (0, 1, 0) (box { size = (1, 1, 1), center = (0, 0.5, 0), material = classic { color = gold } })
+c = union (box { size = (1, 1, 1) } |> translate up) (box { size = (2, 1, 1), material = classic { color = gold } } |> scale 2)\n";
     operators_over_lines: "a = [\n  x,\n] ++ ring 12 2.4 ball\nb = aLongNameForAValueThatIsAdded + anotherLongNameForAValue * aFactorOfTheOther - theLastOfThemAll x\n";
 }

@@ -47,6 +47,9 @@ other = 1
 "#;
         bad_escape: r#"path = "C:\scenes\new"
 "#;
+        negative_without_equals: "a = plane { offset -1 }
+b = plane { normal = up, offset -1 }
+";
         unicode_minus: "x = −1
 y = 3 × 4
 z = a ≤ b
@@ -76,6 +79,16 @@ x = 3 {-
 b = #gggggg
 c = #ff00ff80
 d = #
+";
+        povray_scene: "camera { location <0, 2, -3> look_at <0, 1, 2> }
+light_source { <2, 4, -3> color White }
+plane { <0, 1, 0>, -1 pigment { checker color White, color Black } }
+";
+        povray_in_a_list: "scene = {
+  objects = [
+    sphere { <0, 0, 0>, 2 pigment { color Red } },
+  ],
+}
 ";
         povray: "sphere { <0, 1, 2>, 2 pigment { color rgb <1, 0, 0> } }
 #declare R = 3;

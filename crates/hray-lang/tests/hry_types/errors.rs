@@ -30,6 +30,9 @@ mistakes! {
         several: "a = foo + bar\nb = a + 1\nc = baz";
         bound_twice: "f x x = x";
         local_misspelt: "f width = let height = widht * 2 in height";
+        hit_of_a_field: "a = classic { color = white * h.p.y + gold * h.p.x, reflection = h.p.x }";
+        hit_of_bumps: "a = classic { bump = 0.1 * sin h.p.x }";
+        hit_of_nothing: "a = sphere { radius = h.p.x }\nb = classic { color = \\p -> h.p.x }";
         unknown_type: "f : Float -> Number\nf x = x";
     }
 
@@ -104,6 +107,11 @@ mistakes! {
         wrong_order: "a = translate (sphere {}) (0, 1, 0)";
         number_for_a_vector: "a = sphere {} |> translate 1";
         number_for_a_shape: "a = scale 2 3";
+        list_for_a_shape: "balls = [sphere {}]\na = balls |> translate up";
+        list_for_a_shape_after: "a = rotate up 30deg [sphere {} | _ <- [1 .. 3]]";
+        lights_for_a_light: "lamps = [point { position = up }]\na = lamps |> scale 2";
+        vector_without_parentheses: "a = translate 0 -1 0 (sphere {})";
+        vector_without_parentheses_piped: "a = sphere {} |> stretch 1 2 1 |> rotate 0 1 0 30deg";
         hit_for_a_place: "f : Hit -> Number\nf h = noise h";
         place_for_a_hit: "f : Hit -> Number\nf h = h.p.x\ng h = f h.p";
         pipe_to_a_value: "a = 1 |> 2";
@@ -140,6 +148,8 @@ mistakes! {
         condition_of_a_vector: "f h = if h.p then 1 else 2";
         differ: "a = if true == false then 1 else \"two\"";
         color_and_number: "f x = if x > 0 then white else 0";
+        number_and_color: "f x = if x > 0 then 0.5 else white";
+        number_and_color_in_a_match: "f x = match x { 0 -> x, _ -> white }";
         arms: "f x = match x { 0 -> white, 1 -> \"black\", _ -> black }";
         pattern: "f x = match x + 1 { \"a\" -> 1, _ -> 2 }";
         patterns: "f x = match x { 0 -> 1, true -> 2, _ -> 3 }";
@@ -204,6 +214,8 @@ scenes! {
     a_list: "scene = [sphere {}, cube {}]\n";
     a_number: "scene = 3\n";
     unknown_field: "scene = { object = [ sphere {} ] }\n";
+    one_light: "scene = { light = point { position = (3, 4, 5) }, objects = [] }\n";
+    one_object: "scene = { object = sphere {}, lamp = point { position = up } }\n";
     one_shape: "scene = { objects = sphere {} }\n";
     light_in_objects: "scene = { objects = [ sphere {}, point { position = (0, 1, 0) } ] }\n";
     shape_in_lights: "scene = { lights = [ sphere {} ] }\n";

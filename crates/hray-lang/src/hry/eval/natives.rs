@@ -281,9 +281,8 @@ impl Machine<'_> {
 
     fn image(&mut self, written: &str, span: Span) -> Outcome<Value> {
         // The folder is that of the file in which the call stands.
-        let file = self.program.sources.file(span.start).map(|file| file.name.clone()).unwrap_or_default();
-        let from = self.program.path_of(&file);
-        let Some(path) = crate::hry::assets::resolve(&from, written) else {
+        let from = self.program.sources.file(span.start).map_or("", |file| &file.path);
+        let Some(path) = crate::hry::assets::resolve(from, written) else {
             let message = format!("{written:?} leads out of the root folder");
             return Err(Failure::new(
                 Diagnostic::error("import-outside", message, span, "not inside the root folder").with_help(

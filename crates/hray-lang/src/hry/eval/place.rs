@@ -6,7 +6,9 @@ use super::machine::{Machine, depends_on_hit};
 use super::scalar::parts;
 use super::value::{FunctionKind, Given, Kind, MaterialValue, RecordValue, Scalar, ShapeNode, Value};
 use crate::diagnostic::{Diagnostic, Span};
+use crate::hry::ast::{BinaryOperator, ExprKind};
 use crate::hry::library::Native;
+use crate::hry::program::application;
 use glam::{DAffine3, DMat3, DVec3};
 use hray_core::{Camera, Light, OrthographicCamera, PerspectiveCamera};
 use std::sync::Arc;
@@ -32,20 +34,60 @@ impl Machine<'_> {
             (Native::Matrix, [Value::Record(record), what]) => (self.matrix(record, span)?, what),
             _ => return Err(internal(span, "a transform with arguments that it does not take").into()),
         };
+        self.check_transform(native, &transform, span)?;
+        self.put(what, &Arc::new(transform), span)
+    }
+
+    /// Refuses what cannot be undone, at the argument that makes it so.
+    fn check_transform(&self, native: Native, transform: &DAffine3, span: Span) -> Outcome<()> {
         let scale = transform.matrix3.to_cols_array().iter().fold(0.0, |most: f64, v| most.max(v.abs()));
         let flat = transform.matrix3.determinant() == 0.0 || scale == 0.0;
-        if !transform.is_finite() || flat {
-            let message = if transform.is_finite() {
-                "this transform makes things flat, and so cannot be undone"
-            } else {
-                "this transform is not made of finite numbers"
-            };
-            let help = "a factor of 0 is not allowed; for something thin use a small one";
-            return Err(Failure::new(
-                Diagnostic::error("transform", message, span, "this transform").with_help(help),
-            ));
+        if transform.is_finite() && !flat {
+            return Ok(());
         }
-        self.put(what, &Arc::new(transform), span)
+        let at = self.argument(span, 0);
+        let diagonal = transform.matrix3.to_cols_array_2d();
+        let zero = (0..3).filter(|i| diagonal.get(*i).and_then(|c| c.get(*i)).is_some_and(|v| *v == 0.0));
+        let zero: Vec<&str> = zero.filter_map(|i| ["x", "y", "z"].get(i).copied()).collect();
+        let is_finite = transform.is_finite();
+        let message = if is_finite {
+            "this transform makes things flat, and so cannot be undone"
+        } else {
+            "this transform is not made of finite numbers"
+        };
+        let label = match native {
+            _ if !is_finite => "not finite".to_owned(),
+            Native::Scale => "this factor is 0".to_owned(),
+            Native::Stretch => format!("the factor along {} is 0", zero.join(" and ")),
+            Native::Matrix => "these columns lie in a plane".to_owned(),
+            _ => "this transform".to_owned(),
+        };
+        let error = Diagnostic::error("transform", message, at, label);
+        let error = if at == span { error } else { error.with_secondary(span, "used here") };
+        Err(Failure::new(error.with_help(match native {
+            _ if !is_finite => "every number in it has to be finite; is something divided by 0?",
+            Native::Matrix => "the vectors `x`, `y` and `z` must not lie in one plane",
+            _ => "a factor of 0 is not allowed; for something thin use a small one, such as 0.001",
+        })))
+    }
+
+    /// The place of an argument, counted from 0, of the call at `span`, however it is written; `span` itself where it is not
+    /// to be found.
+    fn argument(&self, span: Span, index: usize) -> Span {
+        let mut found = None;
+        let modules = self.program.modules.iter().filter(|module| !module.is_standard);
+        for definition in modules.flat_map(|module| &module.syntax.definitions) {
+            definition.body.walk(&mut |expr| {
+                let call = match &expr.kind {
+                    ExprKind::Binary { operator: BinaryOperator::Pipe, right, .. } => right,
+                    _ => expr,
+                };
+                if expr.span == span && found.is_none() {
+                    found = application(call).1.get(index).map(|argument| argument.span);
+                }
+            });
+        }
+        found.unwrap_or(span)
     }
 
     fn vector(&self, value: &Value, span: Span) -> Outcome<DVec3> {
@@ -63,10 +105,11 @@ impl Machine<'_> {
         let length = axis.dot(axis).sqrt();
         if length == 0.0 || !length.is_finite() {
             let message = "the axis of a rotation needs a direction";
-            return Err(Failure::new(
-                Diagnostic::error("transform", message, span, "this rotation")
-                    .with_help("for example `rotate up 30deg`"),
-            ));
+            let at = self.argument(span, 0);
+            let label = if length == 0.0 { "this axis has length 0" } else { "this axis is not finite" };
+            let error = Diagnostic::error("transform", message, at, label);
+            let error = if at == span { error } else { error.with_secondary(span, "used here") };
+            return Err(Failure::new(error.with_help("for example `rotate up 30deg`")));
         }
         let snap = |v: f64| {
             if v.abs() < NO_ANGLE {

@@ -7,13 +7,22 @@ use crate::hry::syntax::SyntaxKind;
 impl Writer<'_, '_> {
     /// An element a line, each with a comma after it, up to the closing bracket.
     fn elements(&mut self, parts: &[Part], indent: usize) {
-        let inside = indent + 2;
+        self.elements_at(parts, indent, indent + 2, false);
+    }
+
+    /// The same at a column; the first may be behind what is on the line already.
+    fn elements_at(&mut self, parts: &[Part], indent: usize, inside: usize, is_behind: bool) {
         let outer = std::mem::replace(&mut self.continuation, inside + 2);
         let mut is_first = true;
         for (number, part) in parts.iter().enumerate() {
             match part {
                 Part::Node(element) => {
-                    self.lead = if is_first { Lead::line(inside) } else { Lead::item(inside) };
+                    let is_apart = !is_behind || self.source.has_comments(self.source.first_token(*element));
+                    self.lead = match is_first {
+                        true if is_apart => Lead::line(inside),
+                        true => Lead::Flat,
+                        false => Lead::item(inside),
+                    };
                     is_first = false;
                     self.element(*element, inside);
                     let comma = match parts.get(number + 1) {
@@ -84,16 +93,17 @@ impl Writer<'_, '_> {
         }
     }
 
-    /// `{ record | a = 1 }`
+    /// `{ record`, `| a = 1,`, `}`: the fields below each other, the first of them behind the bar.
     pub(super) fn broken_update(&mut self, node: u32, indent: usize) {
         let parts = self.source.parts(node);
         let [Part::Token(open), Part::Node(record), Part::Token(bar), rest @ ..] = parts.as_slice() else {
             return;
         };
         self.token(*open);
-        self.expr(*record, indent + 2, 2);
+        self.expr(*record, indent + 2, 0);
+        self.lead = Lead::line(indent + 2);
         self.token(*bar);
-        self.elements(rest, indent);
+        self.elements_at(rest, indent, indent + 4, true);
     }
 
     /// `match subject { arms }`

@@ -86,7 +86,8 @@ impl Writer<'_, '_> {
         }
     }
 
-    /// The last argument of an application, where everything before it and its opening bracket fit on the line.
+    /// The last argument of an application, where everything before it and its opening bracket fit on the line. Of several
+    /// calls in parentheses none is hidden by the last.
     fn last_argument(&self, application: u32) -> Option<u32> {
         let node = self.source.node(application);
         let last = *self.source.children(application).last()?;
@@ -100,8 +101,24 @@ impl Writer<'_, '_> {
                 | SyntaxKind::MatchExpr
         );
         let open = self.source.first_token(last);
+        if self.source.kind_of(last) == SyntaxKind::ParenExpr && self.has_call_before(application) {
+            return None;
+        }
         let fits = has_brackets && !self.source.has_comments(open) && self.fits(node.first_token, open, 2);
         fits.then_some(last)
+    }
+
+    /// Whether an argument before the last is in parentheses.
+    fn has_call_before(&self, application: u32) -> bool {
+        let mut function = self.source.children(application).first().copied();
+        while let Some(here) = function.filter(|here| self.source.kind_of(*here) == SyntaxKind::ApplyExpr) {
+            let [inner, argument] = self.source.children(here)[..] else { return false };
+            if self.source.kind_of(argument) == SyntaxKind::ParenExpr {
+                return true;
+            }
+            function = Some(inner);
+        }
+        false
     }
 
     /// A function and its arguments: the last of them over several lines, or an argument a line.

@@ -32,8 +32,8 @@ pub(super) struct Source<'t> {
     text: &'t str,
     tokens: &'t [Token],
     nodes: &'t [Node],
-    /// Whether a token is a `-` in front of its operand.
-    prefix_minus: Vec<bool>,
+    /// Whether a token is a `-` in front of its operand, or the `..` of a rest.
+    prefix: Vec<bool>,
     /// Whether a token is the comma after a last element, which only broken brackets have.
     last_comma: Vec<bool>,
     /// How wide everything before a token is on one line.
@@ -49,7 +49,7 @@ impl<'t> Source<'t> {
             text,
             tokens,
             nodes,
-            prefix_minus: vec![false; tokens.len()],
+            prefix: vec![false; tokens.len()],
             last_comma: vec![false; tokens.len()],
             widths: Vec::with_capacity(tokens.len() + 1),
             breaks: Vec::with_capacity(tokens.len() + 1),
@@ -65,7 +65,10 @@ impl<'t> Source<'t> {
             let first = node.first_token;
             let may_be_minus = matches!(node.kind, SyntaxKind::UnaryExpr | SyntaxKind::LiteralPattern);
             if may_be_minus && self.kind(first) == SyntaxKind::Minus {
-                mark(&mut self.prefix_minus, first);
+                mark(&mut self.prefix, first);
+            }
+            if node.kind == SyntaxKind::RestPattern {
+                mark(&mut self.prefix, first);
             }
         }
         for (number, pair) in self.tokens.windows(2).enumerate() {
@@ -124,7 +127,13 @@ impl<'t> Source<'t> {
                 return if first + 1 < node.end_token { vec![first] } else { Vec::new() };
             }
             S::MatchExpr => (&[S::OpenBrace], 1),
-            S::UpdateExpr => (&[S::Bar], 1),
+            S::UpdateExpr => {
+                let bar = self.parts(number).into_iter().find_map(|part| match part {
+                    Part::Token(token) if self.kind(token) == S::Bar => Some(token),
+                    _ => None,
+                });
+                return bar.map_or_else(Vec::new, |bar| vec![bar, bar + 1]);
+            }
             S::ComprehensionExpr => (&[S::Bar], 0),
             S::BinaryExpr => (&[S::Pipe], 0),
             S::IfExpr => (&[S::ThenKeyword, S::ElseKeyword], 0),
@@ -223,13 +232,13 @@ impl<'t> Source<'t> {
             before = before.saturating_sub(1);
         }
         let (last, next) = (self.kind(before), self.kind(token));
-        let is_minus = self.prefix_minus.get(before as usize).copied().unwrap_or(false);
+        let is_prefix = self.prefix.get(before as usize).copied().unwrap_or(false);
         match (last, next) {
             (S::OpenBrace, S::CloseBrace) => false,
             (_, S::Comma | S::CloseParen | S::CloseBracket | S::Dot) => false,
             (S::OpenParen | S::OpenBracket | S::Dot | S::Backslash, _) => false,
             // Two signs without a space would begin a comment.
-            _ if is_minus => next == S::Minus,
+            _ if is_prefix => next == S::Minus,
             _ => true,
         }
     }

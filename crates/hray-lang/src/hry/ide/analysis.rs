@@ -137,14 +137,14 @@ impl Analysis {
             let index = standard().files.iter().position(|other| other.base == file.base)?;
             return Some(Place { file: FileId::Library(STANDARD.get(index)?.name), span: local });
         }
-        Some(Place { file: FileId::Own(program.path_of(&file.name)), span: local })
+        Some(Place { file: FileId::Own(file.path.clone()), span: local })
     }
 
     /// The span in the program of a place in one of its own files.
     pub(super) fn span(&self, place: &Place) -> Option<Span> {
         let (program, _) = self.hry.as_ref()?;
         let FileId::Own(path) = &place.file else { return None };
-        let file = program.sources.files().iter().find(|file| program.path_of(&file.name) == *path)?;
+        let file = program.sources.files().iter().find(|file| file.path == *path)?;
         Some(Span::new(file.base + place.span.start, file.base + place.span.end))
     }
 
@@ -153,9 +153,7 @@ impl Analysis {
     pub fn files(&self) -> Vec<String> {
         match &self.hry {
             None => vec![self.path.clone()],
-            Some((program, _)) => {
-                program.sources.files().iter().map(|file| program.path_of(&file.name)).collect()
-            }
+            Some((program, _)) => program.sources.files().iter().map(|file| file.path.clone()).collect(),
         }
     }
 }

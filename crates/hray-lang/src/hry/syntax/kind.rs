@@ -200,9 +200,9 @@ kinds! {
     ParenPattern,
     /// `(pattern, pattern)`
     VectorPattern,
-    /// `[pattern, .. rest]`
+    /// `[pattern, ..rest]`
     ListPattern,
-    /// `.. rest`
+    /// `..rest`
     RestPattern,
     /// `{ name = pattern }`
     RecordPattern,

@@ -39,6 +39,15 @@ pub fn check(program: &Program, diagnostics: &mut Vec<Diagnostic>) -> Checked {
     }
     infer.finish();
     found.append(&mut infer.diagnostics);
+    // A value that lacks its hit is no function for want of it, so that is not wrong as well.
+    let no_functions: Vec<Span> = found
+        .iter()
+        .filter(|diagnostic| diagnostic.code == "unknown-name")
+        .flat_map(|diagnostic| diagnostic.secondary.iter().map(|label| label.span))
+        .collect();
+    found.retain(|diagnostic| {
+        diagnostic.code != "wrong-field" || !no_functions.contains(&diagnostic.primary.span)
+    });
     found.sort_by_key(|diagnostic| (diagnostic.primary.span.start, diagnostic.primary.span.end));
     found.dedup();
     // Where the text could not be read, what was made of it says nothing about what was meant.

@@ -4,8 +4,10 @@ use super::lints;
 use super::unknown;
 use crate::diagnostic::{Diagnostic, Span};
 use crate::hry::ast::{
-    Definition, Expr, ExprKind, Import, ImportNames, Module, Name, Pattern, PatternKind, Qualifier,
+    Definition, Expr, ExprKind, FieldValue, Import, ImportNames, Module, Name, Pattern, PatternKind,
+    Qualifier,
 };
+use crate::hry::library::FieldType;
 use crate::hry::program::{Global, LoadedModule};
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -84,6 +86,8 @@ pub(super) fn resolve(
         needs: Vec::new(),
         groups: Vec::new(),
         member: HashMap::new(),
+        varying: None,
+        hit_missing: None,
     };
     resolver.imports(&module.syntax);
     for (index, definition) in module.syntax.definitions.iter().enumerate() {
@@ -136,6 +140,10 @@ struct Resolver<'a> {
     groups: Vec<Group>,
     /// Of a local bound in a group: the group and its place in it.
     member: HashMap<usize, (usize, usize)>,
+    /// The value of a field that may vary over a surface, where it is being walked and is no function yet.
+    varying: Option<Span>,
+    /// The name of a hit that such a value lacks, which was said.
+    hit_missing: Option<(Span, Arc<str>)>,
 }
 
 impl Resolver<'_> {
@@ -283,11 +291,45 @@ impl Resolver<'_> {
             self.needed(global);
             return Meaning::Global(global);
         }
+        if self.lacks_hit(name, span) {
+            return Meaning::Nothing;
+        }
         let locals = self.scopes.iter().filter(|(_, locals)| !locals.is_empty());
         let mut locals: Vec<&str> = locals.map(|(name, _)| &**name).collect();
         locals.sort_unstable();
         self.diagnostics.push(unknown::name(name, span, self.module, &locals));
         Meaning::Nothing
+    }
+
+    /// Whether a name that means nothing is that of a hit, where the value of a field could be a function of one. It is
+    /// said once for every value.
+    fn lacks_hit(&mut self, name: &Arc<str>, span: Span) -> bool {
+        let Some(value) = self.varying else { return false };
+        let known = |(place, said): &(Span, Arc<str>)| *place == value && said == name;
+        if self.hit_missing.as_ref().is_some_and(known) {
+            return true;
+        }
+        if !matches!(&**name, "h" | "hit") {
+            return false;
+        }
+        self.diagnostics.push(unknown::hit(name, span, value));
+        self.hit_missing = Some((value, name.clone()));
+        true
+    }
+
+    /// The fields of a record that is given to a constructor.
+    fn constructor_fields(&mut self, callee: &Expr, fields: &[FieldValue]) {
+        let constructor = match self.names.uses.get(&callee.span.start) {
+            Some(Meaning::Global(Global::Constructor(constructor))) => Some(*constructor),
+            _ => None,
+        };
+        for field in fields {
+            let found = constructor.and_then(|constructor| constructor.field(&field.name.text));
+            let varies = found.is_some_and(|(_, spec)| spec.varies || spec.kind == FieldType::Height);
+            let outer = std::mem::replace(&mut self.varying, varies.then_some(field.value.span));
+            self.expr(&field.value);
+            self.varying = outer;
+        }
     }
 
     fn used(&mut self, local: usize) {
@@ -387,7 +429,12 @@ impl Resolver<'_> {
             }
             ExprKind::Apply { function, argument } => {
                 self.expr(function);
-                self.expr(argument);
+                match (&function.kind, &argument.kind) {
+                    (ExprKind::Name(_), ExprKind::Record(fields)) => {
+                        self.constructor_fields(function, fields)
+                    }
+                    _ => self.expr(argument),
+                }
             }
             ExprKind::Unary { operand, .. } => self.expr(operand),
             ExprKind::Binary { left, right, .. } => {
@@ -408,7 +455,9 @@ impl Resolver<'_> {
             ExprKind::Lambda { parameters, body } => {
                 let mut locals = Vec::new();
                 parameters.iter().for_each(|parameter| self.bind(parameter, expr.span, false, &mut locals));
+                let outer = self.varying.take();
                 self.expr(body);
+                self.varying = outer;
                 self.leave(&locals);
             }
             ExprKind::Match { subject, arms } => {

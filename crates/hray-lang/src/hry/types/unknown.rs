@@ -222,6 +222,15 @@ pub(super) fn name(name: &str, span: Span, module: &LoadedModule, locals: &[&str
     error.with_help(format!("define it somewhere in this file, for example: `{name} = 1`"))
 }
 
+/// The complaint about the name of a hit in a value that is no function of one.
+pub(super) fn hit(name: &str, span: Span, value: Span) -> Diagnostic {
+    let message = format!("there is no hit `{name}` here: this value is not a function");
+    let text = "what varies over a surface is a function of the hit:";
+    Diagnostic::error("unknown-name", message, span, "not defined")
+        .with_secondary(value, "may be a function")
+        .with_suggestion(Span::at(value.start), format!("\\{name} -> "), text)
+}
+
 fn foreign(name: &str) -> Option<&'static Foreign> {
     let lower = name.to_lowercase();
     FOREIGN.iter().find(|foreign| foreign.0 == lower)
@@ -288,8 +297,8 @@ pub(super) fn field_synonym(constructor: &Constructor, name: &str) -> Option<&'s
         (&["dir", "towards", "toward"], &["direction", "normal"]),
         (&["antialiasing", "aa", "spp", "samplesperpixel"], &["samples"]),
         (&["recursion", "bounces", "maxdepth"], &["depth"]),
-        (&["shapes", "primitives", "children", "world"], &["objects"]),
-        (&["lamps", "lightsources"], &["lights"]),
+        (&["shape", "shapes", "primitives", "children", "world"], &["objects"]),
+        (&["lamp", "lamps", "lightsource", "lightsources"], &["lights"]),
         (&["sky", "environment", "backdrop"], &["background"]),
     ];
     let lower: String = name.to_lowercase().chars().filter(|c| *c != '_').collect();

@@ -113,10 +113,20 @@ impl Parser<'_> {
 
     /// A value stands where a definition belongs.
     fn nameless(&self, first: usize) -> Diagnostic {
+        if self.is(SyntaxKind::OpenBrace) && self.is_povray(first) {
+            return self.povray(first);
+        }
         let message = "this value has no name, so nothing can use it";
         let error =
             Diagnostic::error("missing-name", message, self.span_of(first), "expected `name = ` before this");
         error.with_help("what is rendered is called `scene`: `scene = { objects = [ ... ], ... }`")
+    }
+
+    /// Whether `name { <0, 1, 0>` or `name { location <0, 1, 0>` begins at a token.
+    fn is_povray(&self, first: usize) -> bool {
+        use SyntaxKind as S;
+        let kind = |after: usize| self.kind_of(first + after);
+        kind(2) == S::Less || kind(2) == S::Name && matches!(kind(3), S::Less | S::OpenBrace)
     }
 
     /// `let` before a definition at the top.

@@ -208,11 +208,14 @@ impl Parser<'_> {
             let error = Diagnostic::error(code, message, self.span_of(with), "expected `|`");
             return error.with_suggestion(self.span_of(with), "|", "write `|`");
         }
-        if self.kind_of(first) == SyntaxKind::Name && last == first + 1 {
-            let (name, value) = (quoted(self.text_of(first)), self.described(last));
-            let message = format!("expected `=` after {name}, found {value}");
-            let error =
-                Diagnostic::error("missing-equals", message, self.span_of(last), "expected `=` before this");
+        let is_negative = last == first + 2 && self.kind_of(first + 1) == SyntaxKind::Minus;
+        if self.kind_of(first) == SyntaxKind::Name && (last == first + 1 || is_negative) {
+            let name = quoted(self.text_of(first));
+            let value = self.span_of(first + 1).to(self.span_of(last));
+            let found =
+                if is_negative { quoted(self.slice(value).unwrap_or("-")) } else { self.described(last) };
+            let message = format!("expected `=` after {name}, found {found}");
+            let error = Diagnostic::error("missing-equals", message, value, "expected `=` before this");
             return error.with_suggestion(Span::at(self.span_of(first).end), " =", "add `=`");
         }
         let message = format!("expected a field, found {}", self.described(first));
@@ -309,12 +312,17 @@ impl Parser<'_> {
                 | SyntaxKind::Text
                 | SyntaxKind::OpenParen
                 | SyntaxKind::OpenBracket
-        )
+        ) || self.is(SyntaxKind::Minus) && self.kind_ahead(1) == SyntaxKind::Number
     }
 
     pub(in super::super) fn missing_equals(&self) -> Diagnostic {
-        let message = format!("expected `=` after the name of the field, found {}", self.found());
-        let error = Diagnostic::error("missing-equals", message, self.here(), "expected `=` before this");
+        let value = self.here().to(self.span_of(self.at + 1));
+        let (here, found) = match self.slice(value).filter(|_| self.is(SyntaxKind::Minus)) {
+            Some(negative) => (value, quoted(negative)),
+            None => (self.here(), self.found()),
+        };
+        let message = format!("expected `=` after the name of the field, found {found}");
+        let error = Diagnostic::error("missing-equals", message, here, "expected `=` before this");
         error.with_suggestion(self.gap(), " =", "add `=`")
     }
 

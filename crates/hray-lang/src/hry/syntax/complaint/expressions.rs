@@ -80,7 +80,7 @@ impl Parser<'_> {
         let span = self.span_of(first).to(self.span_of(rest));
         let message = "a list is taken apart in brackets";
         let error = Diagnostic::error("list-pattern", message, self.here(), "not a part of a pattern");
-        let pattern = format!("[{}, .. {}]", self.text_of(first), self.text_of(rest));
+        let pattern = format!("[{}, ..{}]", self.text_of(first), self.text_of(rest));
         self.report(error.with_suggestion(span, pattern, "write"));
         self.bump();
         self.bump();
@@ -126,14 +126,14 @@ impl Parser<'_> {
     pub(in super::super) fn no_subject(&self) -> Diagnostic {
         let message = "this `match` does not say what it looks at";
         let error = Diagnostic::error("missing-value", message, self.here(), "expected a value before this");
-        error.with_help("write `match list { [] -> 0, [first, .. rest] -> first }`")
+        error.with_help("write `match list { [] -> 0, [first, ..rest] -> first }`")
     }
 
     pub(in super::super) fn no_arms(&self, start: Mark) -> Diagnostic {
         let message = format!("expected the arms of this `match`, found {}", self.found());
         let error = Diagnostic::error("missing-arms", message, self.here(), "expected `{`");
         let error = error.with_secondary(self.span_of(Self::token_of(start)), "the `match`");
-        error.with_help("write `match list { [] -> 0, [first, .. rest] -> first }`")
+        error.with_help("write `match list { [] -> 0, [first, ..rest] -> first }`")
     }
 
     /// A function, `let` or `if` as an argument, without parentheses.

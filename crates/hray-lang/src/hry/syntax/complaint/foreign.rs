@@ -89,7 +89,7 @@ const WORDS: &[Word] = &[
         words: &["case", "switch", "of"],
         place: Place::Any,
         message: "a choice by pattern is written `match`, with its arms in braces",
-        remedy: Remedy::Help("write `match list { [] -> 0, [first, .. rest] -> first }`"),
+        remedy: Remedy::Help("write `match list { [] -> 0, [first, ..rest] -> first }`"),
     },
     Word {
         words: &["elif", "elsif", "elseif", "elseIf"],

@@ -27,6 +27,8 @@ impl Parser<'_> {
             }
             SyntaxKind::Less => {
                 self.fail(Self::angle_brackets);
+                // All that follows is in that notation, too.
+                self.is_quiet |= self.errors.last().is_some_and(|error| error.code == "povray");
                 self.skip_angle_brackets();
             }
             SyntaxKind::Plus => {
@@ -103,6 +105,11 @@ impl Parser<'_> {
 
     /// `<1, 2, 3>`
     fn angle_brackets(&self) -> Diagnostic {
+        let open = self.at.checked_sub(1).filter(|open| self.kind_of(*open) == SyntaxKind::OpenBrace);
+        let name = open.and_then(|open| open.checked_sub(1));
+        if let Some(name) = name.filter(|name| self.kind_of(*name) == SyntaxKind::Name) {
+            return self.povray(name);
+        }
         let message = "a vector is written in parentheses, not in `<` and `>`";
         let span = self.here();
         let error = Diagnostic::error("angle-brackets", message, span, "expected a value");
@@ -118,6 +125,33 @@ impl Parser<'_> {
             }
             None => error.with_help("write `(0, 1, 2)`"),
         }
+    }
+
+    /// `sphere { <0, 1, 0>, 2 ... }`, the name at a token.
+    pub(super) fn povray(&self, name: usize) -> Diagnostic {
+        let word = self.text_of(name);
+        let message = "this is the notation of POV-Ray; in hry the fields of a thing have names";
+        let label = format!("what {} takes is written `{{ field = value, ... }}`", quoted(word));
+        let error = Diagnostic::error("povray", message, self.span_of(name), label);
+        let help = match word {
+            "sphere" => {
+                "write `sphere { center = (0, 1, 0), radius = 2, material = classic { color = #ff0000 } }`"
+            }
+            "box" => {
+                "write `box { center = (0, 1, 0), size = (2, 2, 2), material = classic { color = #ff0000 } }`"
+            }
+            "plane" => "write `plane { normal = up, offset = -1, material = classic { color = #ff0000 } }`",
+            "light_source" => {
+                "write `point { position = (3, 4, 5), intensity = 1 }` in the list `lights` of the scene"
+            }
+            "camera" => "write `camera = perspective { from = (0, 2, 9), to = (0, 1, 0) }` in the scene",
+            _ => {
+                "for example `sphere { center = (0, 1, 0), radius = 2, material = classic { color = #ff0000 } }`"
+            }
+        };
+        let note =
+            "what is to be seen stands in one record: `scene = { lights = [ ... ], objects = [ ... ] }`";
+        error.with_note(note).with_help(help)
     }
 
     /// The `>` that seems to close a `<`.

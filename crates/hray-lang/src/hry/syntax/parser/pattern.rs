@@ -96,7 +96,7 @@ impl Parser<'_> {
         }
     }
 
-    /// `[a, b]`, `[a, .. rest]`
+    /// `[a, b]`, `[a, ..rest]`
     fn list_pattern(&mut self) -> SyntaxKind {
         let outer = self.open();
         let mut has_rest = false;

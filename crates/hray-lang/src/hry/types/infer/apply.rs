@@ -120,8 +120,40 @@ impl<'p> Infer<'p> {
             return None;
         }
         let found = self.refused_type(argument, from);
+        if let Some(parts) = self.components_apart(call, index, found, from) {
+            self.suggest_vector(complaint, parts);
+            return None;
+        }
         call.refused = Some(Refused { found, wanted: from, complaint });
         Some(())
+    }
+
+    /// Whether `f 0 1 0` probably meant `f (0, 1, 0)`: the arguments that would be the components.
+    fn components_apart<'a>(
+        &mut self,
+        call: &Call<'a, 'p>,
+        index: usize,
+        found: Ty,
+        wanted: Ty,
+    ) -> Option<&'a [&'p Expr]> {
+        let count = match self.types.store.head(wanted) {
+            Some(Head::Vec3) => 3,
+            Some(Head::Vec2) => 2,
+            _ => return None,
+        };
+        let is_number = |infer: &Self, ty: Ty| infer.types.store.head(ty) == Some(Head::Number);
+        let parts = call.arguments.get(index..index + count)?;
+        let piped = parts.iter().any(|part| part.span.end <= call.callee.span.start);
+        if !is_number(self, found) || piped {
+            return None;
+        }
+        for part in parts.iter().skip(1) {
+            let ty = self.expr(part, None);
+            if !is_number(self, ty) {
+                return None;
+            }
+        }
+        Some(parts)
     }
 
     /// The type that an argument has, which was refused.

@@ -78,8 +78,14 @@ impl<'p> Infer<'p> {
                     self.field_value(constructor, field, value)
                 }
                 None => {
-                    self.unknown_constructor_field(constructor, &name.text, name.span, None, true);
-                    self.expr(&value.value, None)
+                    let ty = self.expr(&value.value, None);
+                    match self.one_of_a_list(constructor, value, ty) {
+                        Some(error) => self.report(error),
+                        None => {
+                            self.unknown_constructor_field(constructor, &name.text, name.span, None, true);
+                        }
+                    }
+                    ty
                 }
             };
             typed.push((name.text.clone(), ty));

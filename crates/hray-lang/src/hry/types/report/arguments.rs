@@ -168,6 +168,31 @@ impl<'p> Infer<'p> {
         }
     }
 
+    /// Adds to a complaint that arguments are the components of a vector.
+    pub(in crate::hry::types) fn suggest_vector(&mut self, complaint: usize, parts: &[&'p Expr]) {
+        let words: Option<Vec<&str>> = parts.iter().map(|part| self.quoted(part.span)).collect();
+        let is_plain = |part: &&Expr| match &part.kind {
+            ExprKind::Number(_) | ExprKind::Name(_) | ExprKind::Field { .. } => true,
+            ExprKind::Unary { operand, .. } => {
+                matches!(operand.kind, ExprKind::Number(_) | ExprKind::Name(_))
+            }
+            _ => false,
+        };
+        let (Some(first), Some(last)) = (parts.first(), parts.last()) else { return };
+        let words = words.filter(|_| parts.iter().all(is_plain));
+        let Some(error) = self.diagnostics.get_mut(complaint) else { return };
+        let text = "a vector is written in parentheses, with commas:";
+        match words {
+            Some(words) => {
+                let replacement = format!("({})", words.join(", "));
+                let span = first.span.to(last.span);
+                error.help = None;
+                error.suggestion = Some(Suggestion { span, replacement, text: text.to_owned() });
+            }
+            None => error.help = Some(format!("{text} `(x, y, z)`")),
+        }
+    }
+
     /// `mix (a, b)` where `mix a b` was meant.
     pub(in crate::hry::types) fn call_with_commas(
         &self,

@@ -8,7 +8,7 @@ use super::super::unknown::{field_synonym, near};
 use super::hints::field_for;
 use super::mismatch::field_words;
 use crate::diagnostic::{Diagnostic, Span};
-use crate::hry::ast::Expr;
+use crate::hry::ast::{Expr, FieldValue};
 use crate::hry::library::{CONSTRUCTORS, Constructor, FieldSpec, FieldType};
 use crate::hry::program::listed;
 use crate::hry::sources::STANDARD_BASE;
@@ -49,6 +49,33 @@ impl<'p> Infer<'p> {
             },
         };
         self.report(error);
+    }
+
+    /// `light = point { ... }` where the field `lights` takes a list.
+    pub(in crate::hry::types) fn one_of_a_list(
+        &self,
+        constructor: &'static Constructor,
+        field: &FieldValue,
+        ty: Ty,
+    ) -> Option<Diagnostic> {
+        let meant = meant_field(constructor, &field.name.text)?;
+        let (_, spec) = constructor.field(meant)?;
+        let of = Allowed::of(spec).list?;
+        if self.types.store.head(ty) != self.types.store.head(of) {
+            return None;
+        }
+        let (name, value) = (&field.name, &field.value);
+        let message = format!("a scene has no field `{}`, but a list `{meant}`", name.text);
+        let error = Diagnostic::error("unknown-field", message, name.span, "no such field")
+            .with_secondary(value.span, format!("an element of `{meant}`"));
+        let text = "a list of one is written in brackets:";
+        Some(match self.quoted(value.span) {
+            Some(quoted) => {
+                let written = format!("{meant} = [{quoted}]");
+                error.with_suggestion(name.span.to(value.span), written, text)
+            }
+            None => error.with_help(format!("{text} `{meant} = [ ... ]`")),
+        })
     }
 
     /// Reports fields that have no default and are not there.

@@ -56,6 +56,11 @@ impl<'p> Infer<'p> {
             );
             return error.with_help(help);
         }
+        if let (Node::List(of), Some(Kind::PLACEABLE)) = (store.get(found), store.kind(expected))
+            && !store.heads(*of).meet(Kind::PLACEABLE).is_empty()
+        {
+            return self.list_to_place(error, expr, span, *of, why);
+        }
         if let (Some(Head::Number), Some(kind)) = (store.head(found), store.kind(expected))
             && kind == Kind::PLACEABLE
         {
@@ -125,10 +130,24 @@ impl<'p> Infer<'p> {
     ) -> Diagnostic {
         let is_plain = expr.is_some_and(|expr| matches!(expr.kind, ExprKind::Number(_) | ExprKind::Name(_)));
         if is_plain {
-            let text = "a grey of that strength, from red, green and blue:";
-            return self.suggest(error, span, |n| in_place(format!("rgb {n} {n} {n}"), why), text);
+            let text = "a grey of that strength:";
+            return self.suggest(error, span, |n| in_place(format!("grey {n}"), why), text);
         }
-        error.with_help("a grey of strength n is `rgb n n n`, or `white * n`")
+        error.with_help("a grey of strength n is `grey n`")
+    }
+
+    /// A number stands first where colours follow.
+    fn grey_before(&self, error: Diagnostic, why: Option<Why<'p>>) -> Diagnostic {
+        let Some(Why::Branch { first } | Why::Arm { first } | Why::Item { first }) = why else {
+            return error;
+        };
+        let text = "if the number is meant as a grey of that strength:";
+        match self.quoted(first) {
+            Some(n) if n.chars().all(|c| c.is_alphanumeric() || matches!(c, '.' | '_')) => {
+                error.with_suggestion(first, format!("grey {n}"), text)
+            }
+            _ => error.with_help("a grey of strength n, as a colour, is `grey n`"),
+        }
     }
 
     fn shown(
@@ -145,6 +164,32 @@ impl<'p> Infer<'p> {
             |n| in_place(format!("show {}", with(n)), why),
             "`show` turns a number into text:",
         )
+    }
+
+    /// A list is given to a transform, which moves one thing.
+    fn list_to_place(
+        &self,
+        error: Diagnostic,
+        expr: Option<&'p Expr>,
+        span: Span,
+        of: Ty,
+        why: Option<Why<'p>>,
+    ) -> Diagnostic {
+        let name = match why {
+            Some(Why::Argument { callee, .. }) => self.quoted(callee.span).unwrap_or("translate"),
+            _ => "translate",
+        };
+        let each = format!("to change each of them: `list |> map ({name} ...)`");
+        if self.types.store.head(of) != Some(Head::Shape) {
+            return error.with_help(each);
+        }
+        let grouped = |text: &str| {
+            let list = expr.map_or_else(|| format!("({text})"), |expr| self.as_argument(expr, text));
+            format!("group {list}")
+        };
+        let piped = matches!(why, Some(Why::Argument { callee, .. }) if span.end <= callee.span.start);
+        let with = |text: &str| if piped { grouped(text) } else { format!("({})", grouped(text)) };
+        self.suggest(error.with_note(each), span, with, "to make one shape of them, which moves as a whole:")
     }
 
     fn list_for_one(&self, error: Diagnostic, expected: Head, why: Option<Why<'p>>) -> Diagnostic {
@@ -202,6 +247,9 @@ impl<'p> Infer<'p> {
             (H::Vec2, H::Vec3) => error.with_help("the third component is missing: `(x, y, z)`"),
             (H::Vec3, H::Vec2) => error.with_help("it has one component too many; `v.xy` drops the third of a vector v"),
             (H::Vec2 | H::Vec3, H::Number) => self.vector_for_number(error, found, why),
+            (H::Color, H::Number) if matches!(why, Some(Why::Branch { .. } | Why::Arm { .. } | Why::Item { .. })) => {
+                self.grey_before(error, why)
+            }
             (H::Color, H::Number) => error.with_help("a colour has the numbers `c.r`, `c.g` and `c.b`"),
             (H::Number, H::Text) => self.shown(error, expr, span, why),
             (H::Text, H::Number) => error.with_help("numbers have no quotes"),
