@@ -63,7 +63,9 @@ pub fn description(seed: u64) -> Option<Description> {
     let scale = if extreme { n.of(&[1e-300, 1e-160, 1e-9, 1e6, 1e18, 1e80, 1e155, 1e304]) } else { 1.0 };
     let (width, height) = (n.below(23) as i64 + 1, n.below(17) as i64 + 1);
     let mut primitives: Vec<Primitive> = Vec::new();
-    for _ in 0..n.below(9) {
+    // Many enough for a tree over them, now and then.
+    let most = if n.once_in(8) { 60 } else { 9 };
+    for _ in 0..n.below(most) {
         let shape = match primitives.last() {
             // Two surfaces in the same place: the last one wins.
             Some(previous) if n.once_in(8) => previous.shape.clone(),

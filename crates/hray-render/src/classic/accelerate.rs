@@ -9,7 +9,7 @@ use fearless_simd::f32x8;
 use fearless_simd::prelude::*;
 use hray_bvh::{AnyLeaves, Bounds, BuildOptions, ClosestLeaves, MOST_RAYS, Packet, Tree};
 use hray_core::{CsgOperation, DVec3};
-use hray_expr::kernels::lanes::{Lanes, MAX_LANES, Mask, Vec3};
+use hray_expr::kernels::lanes::{Lanes, Mask, Vec3};
 use std::ops::Range;
 
 /// With fewer bounded objects trying all of them is quicker.
@@ -236,7 +236,6 @@ fn up_to<S: Simd>(simd: S, distances: Lanes<S>) -> [f32; MOST_RAYS] {
     let widened = distances * (1.0 + f64::from(f32::EPSILON));
     narrow::<S>(known.select(widened, Lanes::<S>::splat(simd, f64::INFINITY)))
 }
-
 
 struct Search<'a, S: Simd> {
     items: &'a [Item],

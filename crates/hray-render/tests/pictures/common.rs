@@ -2,7 +2,7 @@
 
 use hray_core::{
     Background, Camera, Cuboid, DAffine3, DVec3, Description, Encoding, Field, Function, Integrator, Light,
-    Material, NoiseTables, PerspectiveCamera, Plane, Primitive, Resolution, Rgb, Scene, Shape, Sphere,
+    Material, Mesh, NoiseTables, PerspectiveCamera, Plane, Primitive, Resolution, Rgb, Scene, Shape, Sphere,
     Texture,
 };
 use hray_expr::{Binary, Builder, Input, NodeId};
@@ -134,6 +134,37 @@ pub(crate) fn plane(normal: DVec3, offset: f64) -> Shape {
 
 pub(crate) fn cuboid(min: DVec3, max: DVec3) -> Shape {
     Shape::Cuboid(Cuboid { min, max })
+}
+
+/// A ball of triangles around a point: the octahedron, its faces cut in four `cuts` times.
+pub(crate) fn ball(center: DVec3, radius: f64, cuts: usize, smooth: bool) -> Shape {
+    let mut points: Vec<DVec3> = DVec3::AXES.into_iter().flat_map(|axis| [axis, -axis]).collect();
+    let mut faces = Vec::new();
+    for (x, y, z) in (0..8).map(|i| (i & 1, 2 + (i >> 1 & 1), 4 + (i >> 2 & 1))) {
+        let even = (x + y + z) % 2 == 0;
+        faces.push(if even { [x, y, z] } else { [x, z, y] });
+    }
+    for _ in 0..cuts {
+        let mut finer = Vec::new();
+        for [a, b, c] in faces {
+            let mut middle = |a: usize, b: usize| {
+                let point = (points[a] + points[b]).normalize();
+                points.iter().position(|p| *p == point).unwrap_or_else(|| {
+                    points.push(point);
+                    points.len() - 1
+                })
+            };
+            let (ab, bc, ca) = (middle(a, b), middle(b, c), middle(c, a));
+            finer.extend([[a, ab, ca], [ab, b, bc], [ca, bc, c], [ab, bc, ca]]);
+        }
+        faces = finer;
+    }
+    let single = |p: DVec3| p.to_array().map(|x| x as f32);
+    let positions = points.iter().map(|p| single(center + *p * radius)).collect();
+    let triangles = faces.iter().map(|face| face.map(|vertex| vertex as u32)).collect();
+    let normals = if smooth { points.iter().copied().map(single).collect() } else { Vec::new() };
+    let mesh = Mesh::new(positions, triangles).and_then(|mesh| mesh.with_normals(normals)).unwrap();
+    Shape::Mesh(Arc::new(mesh))
 }
 
 pub(crate) fn of(shape: Shape, material: &Arc<Material>) -> Primitive {

@@ -5,6 +5,7 @@
 mod common;
 mod functions;
 mod lights;
+mod meshes;
 mod reference;
 mod scales;
 mod shapes;

@@ -2,7 +2,7 @@
 //! the same.
 
 use crate::common::{
-    NOTHING, colors, cuboid, description, glass, gray, matte, mirror, of, placed, plane, sphere, v,
+    NOTHING, ball, colors, cuboid, description, glass, gray, matte, mirror, of, placed, plane, sphere, v,
 };
 use hray_core::{
     Background, Camera, Csg, CsgOperation, DAffine3, DMat3, DVec3, Description, Light, Material, Mesh,
@@ -115,6 +115,9 @@ fn a_mirror_does_not_see_itself() {
         of(sphere(v(0.1, 0.2, 0.0), 1.2), &mirror()),
         of(sphere(v(-0.1, 0.0, -100.0), 99.0), &mirror()),
         of(cuboid(v(-1.0, 0.0, -1.0), v(0.7, 0.9, 1.0)), &mirror()),
+        of(ball(v(0.1, 0.2, 0.0), 1.2, 2, false), &mirror()),
+        of(ball(v(0.1, 0.2, 0.0), 1.2, 2, true), &mirror()),
+        placed(of(ball(v(5.0, 0.0, 0.0), 2.0, 3, true), &mirror()), DAffine3::from_scale(v(0.4, 0.7, 0.2))),
         of(plane(v(0.2, 0.9, 0.3), 0.4), &mirror()),
         placed(of(cuboid(v(-1.0, 0.0, -1.0), v(0.7, 0.9, 1.0)), &mirror()), turned),
         placed(of(sphere(v(5.0, 0.0, 0.0), 2.0), &mirror()), DAffine3::from_scale(v(0.4, 0.7, 0.2))),
@@ -136,6 +139,7 @@ fn clear_glass_is_invisible() {
     let turned = DAffine3::from_axis_angle(v(1.0, 2.0, 3.0).normalize(), 0.7);
     let shapes = [
         of(sphere(v(0.1, 0.2, 0.0), 1.2), &glass(1.0)),
+        of(ball(v(0.1, 0.2, 0.0), 1.2, 3, false), &glass(1.0)),
         of(cuboid(v(-1.0, -0.3, -1.0), v(0.7, 0.9, 1.0)), &glass(1.0)),
         placed(of(cuboid(v(-1.0, 0.0, -1.0), v(0.7, 0.9, 1.0)), &glass(1.0)), turned),
         placed(of(sphere(v(5.0, 0.0, 0.0), 2.0), &glass(1.0)), DAffine3::from_scale(v(0.4, 0.7, 0.2))),
@@ -158,6 +162,9 @@ fn no_shadow_falls_on_what_is_seen_from_the_light() {
     let turned = DAffine3::from_axis_angle(v(1.0, 2.0, 3.0).normalize(), 0.7);
     let shapes = [
         of(sphere(v(0.1, 0.2, 0.0), 1.2), &matte(1.0)),
+        of(ball(v(0.1, 0.2, 0.0), 1.2, 3, false), &matte(1.0)),
+        of(ball(v(0.1, 0.2, 0.0), 1.2, 3, true), &matte(1.0)),
+        placed(of(ball(v(5.0, 0.0, 0.0), 2.0, 3, true), &matte(1.0)), DAffine3::from_scale(v(0.4, 0.7, 0.2))),
         of(sphere(v(-0.1, 0.0, -1000.0), 999.0), &matte(1.0)),
         of(cuboid(v(-1.0, 0.0, -1.0), v(0.7, 0.9, 1.0)), &matte(1.0)),
         of(plane(v(0.2, 0.9, 0.3), 0.4), &matte(1.0)),
@@ -169,7 +176,9 @@ fn no_shadow_falls_on_what_is_seen_from_the_light() {
             let light = Light::Point { position: v(0.0, 0.0, 4.0), intensity: gray(1.0) };
             let description = at_scale(&description(64, vec![shape.clone()], vec![light]), s);
             let dark = colors(&description).iter().filter(|c| **c != NOTHING && c.r <= 0.0).count();
-            assert_eq!(dark, 0, "shape {i} at {s}");
+            // At the very edge of a mesh an interpolated normal may point away from the viewer.
+            let allowed = if matches!(shape.shape, Shape::Mesh(_)) { 4 } else { 0 };
+            assert!(dark <= allowed, "{dark} pixels: shape {i} at {s}");
         }
     }
 }
