@@ -54,7 +54,7 @@ impl std::error::Error for MeshError {}
 /// Triangles that share vertices, in a tree.
 ///
 /// Triangles with a coordinate that is no number, or infinite, are never hit.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct TriangleMesh {
     tree: Tree,
     blocks: Vec<Block>,

@@ -114,7 +114,8 @@ impl Tree {
                             }
                         }
                         let new = Entry { key: entry(distances[slot], reference), lanes: of_slot(met, slot) };
-                        let farther = if new.key < first.key { std::mem::replace(&mut first, new) } else { new };
+                        let farther =
+                            if new.key < first.key { std::mem::replace(&mut first, new) } else { new };
                         if farther.lanes == 0 {
                             continue;
                         }
@@ -200,7 +201,8 @@ mod tests {
     fn bits_are_gathered() {
         for met in [0u64, 1, 0x8040_2010_0804_0201, u64::MAX, 0x1234_5678_9ABC_DEF0, 0xFF00_0000_0000_0000] {
             for slot in 0..8 {
-                let expected = (0..8).map(|lane| ((met >> (8 * lane + slot) & 1) as u32) << lane).sum::<u32>();
+                let expected =
+                    (0..8).map(|lane| ((met >> (8 * lane + slot) & 1) as u32) << lane).sum::<u32>();
                 assert_eq!(of_slot(met, slot), expected, "{met:x} {slot}");
             }
             assert_eq!(fold(met), met.to_le_bytes().iter().fold(0, |a, b| a | u32::from(*b)));

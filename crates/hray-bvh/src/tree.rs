@@ -1,10 +1,10 @@
 //! The tree, and the walk along a ray through it.
 
-use crate::prefetch::prefetch;
 use crate::build::{Builder, Primitive, Store};
+use crate::prefetch::prefetch;
 use crate::{Bounds, BuildOptions, Ray};
-use fearless_simd::{f32x8, mask32x8};
 use fearless_simd::prelude::*;
+use fearless_simd::{f32x8, mask32x8};
 
 /// How many children a node has.
 pub(crate) const WIDTH: usize = 8;
@@ -20,7 +20,7 @@ pub(crate) const MOST: usize = 1 << COUNT_SHIFT;
 
 /// Eight boxes, and what is in them. Four cache lines.
 #[repr(C, align(64))]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Node {
     /// Least x, greatest x, least y, ...: so that a ray's direction picks the planes that it comes to first.
     bounds: [[f32; WIDTH]; 6],
@@ -160,7 +160,7 @@ pub(crate) fn entry(distance: f32, child: u32) -> u64 {
 }
 
 /// A tree of boxes of eight children.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Tree {
     pub(crate) nodes: Vec<Node>,
     pub(crate) root: Option<Child>,
