@@ -6,9 +6,10 @@ use fearless_simd::prelude::*;
 /// How far, as a share of the greatest coordinates involved, rounding may move what a leaf's test finds, or a box.
 ///
 /// Let e be 2^-24, and A the greatest coordinate of the origin plus that of the things. The test of triangles moves a vertex by
-/// up to 6 e A, sheared. A product in an edge function is at most 5 times the determinant (`FLAT`, and the determinant itself), so
-/// the weights move the point that a ray meets by 6 e times 5 times the sheared triangle's size, up to 4 A: 120 e A. The
-/// distance of that is rounded a few times, 10 e A, and the distance of a box's face as well, 5 e A.
+/// up to 7 e A, sheared. A product in an edge function is at most 9 times the determinant (`FLAT`, and the determinant itself), so
+/// the weights move the point that a ray meets by 6 e times 9 times the sheared triangle's size, up to 4 A: 216 e A. The
+/// distance of that is rounded a few times, 10 e A, and the distance of a box's face as well, 5 e A. Together that is less than
+/// 256 e A.
 const SLACK: f32 = 1.0 / (1u32 << 16) as f32;
 
 /// Components of a direction are not taken to be less than this share of the greatest one: their reciprocals stay finite.

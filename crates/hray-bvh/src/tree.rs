@@ -275,6 +275,16 @@ impl Tree {
                     self.prefetch(child, leaves);
                     let distances: [f32; WIDTH] = enter.into();
                     let mut nearest = entry(distances[slot], child);
+                    if met & (met - 1) == 0 {
+                        // Two, most often: no loop.
+                        let slot = (met.trailing_zeros() & 7) as usize;
+                        self.prefetch(node.children[slot], leaves);
+                        let new = entry(distances[slot], node.children[slot]);
+                        entries[top] = nearest.max(new);
+                        top += 1;
+                        child = nearest.min(new) as u32;
+                        continue;
+                    }
                     let bottom = top;
                     // Keeps those left for later in order, the nearest last: few are met, so insertion is quickest.
                     while met != 0 {
@@ -282,14 +292,14 @@ impl Tree {
                         met &= met - 1;
                         self.prefetch(node.children[slot], leaves);
                         let new = entry(distances[slot], node.children[slot]);
-                        let mut farther = nearest.max(new);
+                        let farther = nearest.max(new);
                         nearest = nearest.min(new);
                         let mut at = top;
                         while at > bottom && entries[at - 1] < farther {
                             entries[at] = entries[at - 1];
                             at -= 1;
                         }
-                        std::mem::swap(&mut entries[at], &mut farther);
+                        entries[at] = farther;
                         top += 1;
                     }
                     child = nearest as u32;

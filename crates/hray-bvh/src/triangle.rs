@@ -16,7 +16,7 @@ use fearless_simd::f32x4;
 use fearless_simd::prelude::*;
 
 /// A product in an edge function that is more than so many times the determinant is taken for imprecise.
-const FLAT: f32 = 4.0;
+const FLAT: f32 = 8.0;
 
 /// Up to four triangles. Those that are missing have no numbers for coordinates, and are never hit.
 #[repr(C, align(32))]
@@ -49,20 +49,19 @@ pub(crate) struct Shear {
 }
 
 impl Shear {
+    /// Without branches, which a random direction would mislead, and without divisions: the ray has the reciprocals already.
     #[inline(always)]
     pub(crate) fn new(ray: &Ray) -> Self {
         let [x, y, z] = ray.direction.map(f32::abs);
-        let last = if x > y {
-            if x > z { 0 } else { 2 }
-        } else if y > z {
-            1
-        } else {
-            2
-        };
+        let of_two = usize::from(y > x);
+        let last = if x.max(y) > z { of_two } else { 2 };
         // No exchange where the direction is negative: both windings count, so the sign of the determinant does not matter.
-        let axes = [[1, 2, 0], [2, 0, 1], [0, 1, 2]][last];
-        let [dx, dy, dz] = axes.map(|axis| ray.direction[axis]);
-        Self { axes, origin: axes.map(|axis| ray.origin[axis]), shear: [dx / dz, dy / dz, 1.0 / dz] }
+        let first = if last == 2 { 0 } else { last + 1 };
+        let second = if first == 2 { 0 } else { first + 1 };
+        let axes = [first, second, last];
+        let scale = ray.inverse[last];
+        let shear = [ray.direction[first] * scale, ray.direction[second] * scale, scale];
+        Self { axes, origin: axes.map(|axis| ray.origin[axis]), shear }
     }
 }
 
@@ -107,7 +106,9 @@ pub(crate) fn hits<S: Simd>(
     let flat = inside & greatest.simd_gt(determinant.abs() * FLAT);
     if flat.to_bitmask() != 0 {
         let vertices = [[ax, ay, az], [bx, by, bz], [cx, cy, cz]].map(|vertex| vertex.map(f32x4::into));
-        return exact(simd, &vertices, inside.to_bitmask() as u32, sz, near, far);
+        let Exact { mask, distance, weights } = exact(&vertices, inside.to_bitmask() as u32, sz, near, far);
+        let weights = weights.map(|weights| weights.simd_into(simd));
+        return (mask != 0).then_some(BlockHits { mask, distance: distance.simd_into(simd), weights });
     }
     let scale = f32x4::splat(simd, 1.0) / determinant;
     let distance = (u * az + v * bz + w * cz) * sz * scale;
@@ -118,18 +119,18 @@ pub(crate) fn hits<S: Simd>(
     (mask != 0).then_some(BlockHits { mask, distance, weights: [v * scale, w * scale] })
 }
 
+/// The same without registers, which a function that is called would have to hand over in memory.
+struct Exact {
+    mask: u32,
+    distance: [f32; 4],
+    weights: [[f32; 4]; 2],
+}
+
 /// The same for the triangles of `lanes`, in double precision: there products of singles are exact, hence signs are, and
 /// weights are as good as the vertices.
 #[cold]
 #[inline(never)]
-fn exact<S: Simd>(
-    simd: S,
-    vertices: &[[[f32; 4]; 3]; 3],
-    lanes: u32,
-    scale_z: f32,
-    near: f32,
-    far: f32,
-) -> Option<BlockHits<S>> {
+fn exact(vertices: &[[[f32; 4]; 3]; 3], lanes: u32, scale_z: f32, near: f32, far: f32) -> Exact {
     let (mut mask, mut distance, mut weights) = (0, [0.0; 4], [[0.0; 4]; 2]);
     for lane in 0..4 {
         let [[ax, ay, az], [bx, by, bz], [cx, cy, cz]] =
@@ -146,8 +147,7 @@ fn exact<S: Simd>(
         mask |= u32::from(inside && between) << lane;
     }
     mask &= lanes;
-    let weights = weights.map(|weights| weights.simd_into(simd));
-    (mask != 0).then_some(BlockHits { mask, distance: distance.simd_into(simd), weights })
+    Exact { mask, distance, weights }
 }
 
 /// A coordinate of a block's vertices, from the ray's origin on.
