@@ -210,8 +210,8 @@ impl Store for Packed<'_> {
         for chunk in primitives.chunks(4) {
             let mut block = Block::EMPTY;
             for (lane, primitive) in chunk.iter().enumerate() {
-                block.numbers[lane] = primitive.number;
-                for (corner, &vertex) in self.triangles[primitive.number as usize].iter().enumerate() {
+                block.numbers[lane] = primitive.number();
+                for (corner, &vertex) in self.triangles[primitive.number() as usize].iter().enumerate() {
                     for axis in 0..3 {
                         block.vertices[corner][axis][lane] = self.vertices[vertex as usize][axis];
                     }

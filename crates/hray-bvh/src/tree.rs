@@ -343,7 +343,7 @@ impl Store for Numbers {
     }
 
     fn push(&mut self, primitives: &[Primitive]) {
-        self.0.extend(primitives.iter().map(|primitive| primitive.number));
+        self.0.extend(primitives.iter().map(Primitive::number));
     }
 
     fn append(&mut self, other: Self) {
