@@ -6,6 +6,7 @@
 use crate::Bounds;
 use crate::collapse::{Binary, Collapse};
 use crate::tree::{Child, MOST_UNITS, Node, Tree, WIDTH};
+use fearless_simd::{Level, dispatch, f32x4, prelude::*};
 use rayon::prelude::*;
 
 /// How much care a tree is built with.
@@ -69,8 +70,8 @@ pub(crate) trait Store: Send + Sync + Sized {
     fn push(&mut self, primitives: &[Primitive]);
     /// Adds all of another, behind.
     fn append(&mut self, other: Self);
-    /// No more will come.
-    fn finish(&mut self);
+    /// Makes room for so many units.
+    fn reserve(&mut self, units: usize);
 }
 
 const MOST_BINS: usize = 32;
@@ -109,34 +110,38 @@ impl Wide {
     }
 }
 
-/// The boxes of things, or of their middles.
-fn over(primitives: &[Primitive], add: impl Fn(&mut Wide, &Primitive) + Sync) -> Wide {
-    let serial = |chunk: &[Primitive]| {
-        let mut wide = Wide::EMPTY;
-        for primitive in chunk {
-            add(&mut wide, primitive);
-        }
-        wide
-    };
+/// The box of things, or that of their middles.
+fn over<const MIDDLES: bool>(primitives: &[Primitive]) -> Wide {
     if primitives.len() <= CHUNK {
-        return serial(primitives);
+        return dispatch!(Level::baseline(), simd => over_in::<MIDDLES, _>(simd, primitives));
     }
     let join = |mut a: Wide, b: Wide| {
         a.add(b.min, b.max);
         a
     };
-    primitives.par_chunks(CHUNK).map(serial).reduce(|| Wide::EMPTY, join)
+    primitives.par_chunks(CHUNK).map(over::<MIDDLES>).reduce(|| Wide::EMPTY, join)
+}
+
+#[inline(always)]
+fn over_in<const MIDDLES: bool, S: Simd>(simd: S, primitives: &[Primitive]) -> Wide {
+    let mut least = f32x4::splat(simd, f32::INFINITY);
+    let mut greatest = f32x4::splat(simd, f32::NEG_INFINITY);
+    for primitive in primitives {
+        let min: f32x4<S> = primitive.min.simd_into(simd);
+        let max: f32x4<S> = primitive.max.simd_into(simd);
+        let middle = min * 0.5 + max * 0.5;
+        least = least.min(if MIDDLES { middle } else { min });
+        greatest = greatest.max(if MIDDLES { middle } else { max });
+    }
+    Wide { min: least.into(), max: greatest.into() }
 }
 
 fn extent(primitives: &[Primitive]) -> Wide {
-    over(primitives, |wide, p| wide.add(p.min, p.max))
+    over::<false>(primitives)
 }
 
 fn middles(primitives: &[Primitive]) -> Wide {
-    over(primitives, |wide, p| {
-        let middle = [0, 1, 2, 3].map(|lane| p.middle(lane));
-        wide.add(middle, middle);
-    })
+    over::<true>(primitives)
 }
 
 /// A set that is to become a child.
@@ -163,6 +168,21 @@ enum Part<S> {
     Forked { node: Box<Node>, parts: Vec<(usize, Self)>, store: S },
 }
 
+impl<S: Store> Part<S> {
+    /// How many nodes and units it has.
+    fn len(&self) -> (usize, usize) {
+        match self {
+            Self::Whole { nodes, store, .. } => (nodes.len(), store.len()),
+            Self::Forked { parts, store, .. } => {
+                parts.iter().fold((1, store.len()), |(nodes, units), (_, part)| {
+                    let (more_nodes, more_units) = part.len();
+                    (nodes + more_nodes, units + more_units)
+                })
+            }
+        }
+    }
+}
+
 pub(crate) struct Builder {
     _options: BuildOptions,
 }
@@ -184,9 +204,10 @@ impl Builder {
         let set = Set { start: 0, end: primitives.len(), extent, is_leaf: false };
         let part = self.part(&mut primitives, set, &store, 0);
         drop(primitives);
+        let (nodes, units) = part.len();
+        tree.nodes.reserve_exact(nodes);
+        all.reserve(units);
         let (root, depth) = flatten(part, &mut tree.nodes, &mut all);
-        tree.nodes.shrink_to_fit();
-        all.finish();
         tree.root = Some(root);
         tree.stack = (WIDTH - 1) * depth + 1;
         (tree, all)
@@ -351,6 +372,9 @@ type Bins = [[Bin; MOST_BINS]; 3];
 
 const NO_BINS: Bins = [[Bin { extent: Wide::EMPTY, count: 0 }; MOST_BINS]; 3];
 
+/// From here on, floats are whole numbers, whose lowest bits are those of the float.
+const WHOLE: f32 = (1 << 23) as f32;
+
 /// From a middle to a bin.
 struct Ruler {
     bins: usize,
@@ -374,22 +398,42 @@ impl Ruler {
     /// not fit.
     #[inline(always)]
     fn bin(&self, primitive: &Primitive, axis: usize) -> usize {
-        const WHOLE: f32 = (1 << 23) as f32;
         let place = (primitive.middle(axis) - self.least[axis]) * self.scale[axis];
         let place = place + (WHOLE - 0.5);
         (if place > WHOLE { place } else { WHOLE }).to_bits() as usize & (MOST_BINS - 1)
     }
 
+    /// By the vectors that every machine of the kind has: the compiler finds worse ones, and each call is too short to look
+    /// for better.
     fn count(&self, primitives: &[Primitive], bins: &mut Bins) {
-        for bins in &mut *bins {
+        dispatch!(Level::baseline(), simd => self.count_in(simd, primitives, bins));
+    }
+
+    /// The same arithmetic as in `bin`, for all axes at once.
+    #[inline(always)]
+    fn count_in<S: Simd>(&self, simd: S, primitives: &[Primitive], bins: &mut Bins) {
+        let [bins_x, bins_y, bins_z] = bins;
+        for bins in [&mut *bins_x, &mut *bins_y, &mut *bins_z] {
             bins[..self.bins].fill(Bin { extent: Wide::EMPTY, count: 0 });
         }
+        let four = |[x, y, z]: [f32; 3]| -> f32x4<S> { [x, y, z, 0.0].simd_into(simd) };
+        let (least, scale) = (four(self.least), four(self.scale));
+        let whole = f32x4::splat(simd, WHOLE);
         for primitive in primitives {
-            for (axis, bins) in bins.iter_mut().enumerate() {
-                let bin = &mut bins[self.bin(primitive, axis)];
-                bin.extent.add(primitive.min, primitive.max);
+            let min: f32x4<S> = primitive.min.simd_into(simd);
+            let max: f32x4<S> = primitive.max.simd_into(simd);
+            let place = (min * 0.5 + max * 0.5 - least) * scale + (WHOLE - 0.5);
+            let [x, y, z, _]: [f32; 4] = place.max(whole).into();
+            let add = |bin: &mut Bin| {
+                let here: f32x4<S> = bin.extent.min.simd_into(simd);
+                bin.extent.min = here.min(min).into();
+                let here: f32x4<S> = bin.extent.max.simd_into(simd);
+                bin.extent.max = here.max(max).into();
                 bin.count += 1;
-            }
+            };
+            add(&mut bins_x[x.to_bits() as usize & (MOST_BINS - 1)]);
+            add(&mut bins_y[y.to_bits() as usize & (MOST_BINS - 1)]);
+            add(&mut bins_z[z.to_bits() as usize & (MOST_BINS - 1)]);
         }
     }
 

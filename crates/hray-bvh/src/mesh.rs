@@ -225,7 +225,7 @@ impl Store for Packed<'_> {
         self.blocks.extend(other.blocks);
     }
 
-    fn finish(&mut self) {
-        self.blocks.shrink_to_fit();
+    fn reserve(&mut self, units: usize) {
+        self.blocks.reserve_exact(units);
     }
 }

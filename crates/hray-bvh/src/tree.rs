@@ -350,7 +350,7 @@ impl Store for Numbers {
         self.0.extend(other.0);
     }
 
-    fn finish(&mut self) {
-        self.0.shrink_to_fit();
+    fn reserve(&mut self, units: usize) {
+        self.0.reserve_exact(units);
     }
 }
