@@ -6,6 +6,7 @@
 use crate::Bounds;
 use crate::collapse::{Binary, Collapse};
 use crate::tree::{Child, MOST_UNITS, Node, Tree, WIDTH};
+use fearless_simd::{Level, dispatch, f32x4, prelude::*};
 use rayon::prelude::*;
 
 /// How much care a tree is built with.
@@ -25,20 +26,29 @@ pub struct BuildOptions {
     pub quality: Quality,
 }
 
-/// A thing to be sorted into the tree.
+/// A thing to be sorted into the tree: half a cache line, read as two vectors.
 #[repr(C, align(32))]
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Primitive {
-    min: [f32; 3],
-    /// What the caller calls it.
-    pub(crate) number: u32,
-    max: [f32; 3],
-    _rest: u32,
+    /// The fourth is not used.
+    min: [f32; 4],
+    /// The fourth holds, in the bits below `MARK`, what the caller calls the thing.
+    max: [f32; 4],
 }
+
+/// Makes a number the bits of a float between 2 and 2^17: arithmetic in all four lanes never meets a subnormal number, which
+/// is slow.
+const MARK: u32 = 1 << 30;
 
 impl Primitive {
     pub(crate) fn new(bounds: &Bounds, number: u32) -> Self {
-        Self { min: bounds.min, number, max: bounds.max, _rest: 0 }
+        let ([a, b, c], [d, e, f]) = (bounds.min, bounds.max);
+        Self { min: [a, b, c, 0.0], max: [d, e, f, f32::from_bits(number | MARK)] }
+    }
+
+    /// What the caller calls it.
+    pub(crate) fn number(&self) -> u32 {
+        self.max[3].to_bits() & !MARK
     }
 
     #[inline(always)]
@@ -60,8 +70,8 @@ pub(crate) trait Store: Send + Sync + Sized {
     fn push(&mut self, primitives: &[Primitive]);
     /// Adds all of another, behind.
     fn append(&mut self, other: Self);
-    /// No more will come.
-    fn finish(&mut self);
+    /// Makes room for so many units.
+    fn reserve(&mut self, units: usize);
 }
 
 const MOST_BINS: usize = 32;
@@ -100,41 +110,38 @@ impl Wide {
     }
 }
 
-/// A set of things: their box, and that of their middles.
-#[derive(Clone, Copy)]
-struct Extent {
-    bounds: Wide,
-    middles: Wide,
+/// The box of things, or that of their middles.
+fn over<const MIDDLES: bool>(primitives: &[Primitive]) -> Wide {
+    if primitives.len() <= CHUNK {
+        return dispatch!(Level::baseline(), simd => over_in::<MIDDLES, _>(simd, primitives));
+    }
+    let join = |mut a: Wide, b: Wide| {
+        a.add(b.min, b.max);
+        a
+    };
+    primitives.par_chunks(CHUNK).map(over::<MIDDLES>).reduce(|| Wide::EMPTY, join)
 }
 
-impl Extent {
-    const EMPTY: Self = Self { bounds: Wide::EMPTY, middles: Wide::EMPTY };
-
-    #[inline(always)]
-    fn add(&mut self, p: &Primitive) {
-        self.bounds.add([p.min[0], p.min[1], p.min[2], 0.0], [p.max[0], p.max[1], p.max[2], 0.0]);
-        let middle = [p.middle(0), p.middle(1), p.middle(2), 0.0];
-        self.middles.add(middle, middle);
+#[inline(always)]
+fn over_in<const MIDDLES: bool, S: Simd>(simd: S, primitives: &[Primitive]) -> Wide {
+    let mut least = f32x4::splat(simd, f32::INFINITY);
+    let mut greatest = f32x4::splat(simd, f32::NEG_INFINITY);
+    for primitive in primitives {
+        let min: f32x4<S> = primitive.min.simd_into(simd);
+        let max: f32x4<S> = primitive.max.simd_into(simd);
+        let middle = min * 0.5 + max * 0.5;
+        least = least.min(if MIDDLES { middle } else { min });
+        greatest = greatest.max(if MIDDLES { middle } else { max });
     }
+    Wide { min: least.into(), max: greatest.into() }
+}
 
-    fn join(mut self, other: Self) -> Self {
-        self.bounds.add(other.bounds.min, other.bounds.max);
-        self.middles.add(other.middles.min, other.middles.max);
-        self
-    }
+fn extent(primitives: &[Primitive]) -> Wide {
+    over::<false>(primitives)
+}
 
-    fn of(primitives: &[Primitive]) -> Self {
-        let serial = |chunk: &[Primitive]| {
-            chunk.iter().fold(Self::EMPTY, |mut extent, primitive| {
-                extent.add(primitive);
-                extent
-            })
-        };
-        if primitives.len() <= CHUNK {
-            return serial(primitives);
-        }
-        primitives.par_chunks(CHUNK).map(serial).reduce(|| Self::EMPTY, Self::join)
-    }
+fn middles(primitives: &[Primitive]) -> Wide {
+    over::<true>(primitives)
 }
 
 /// A set that is to become a child.
@@ -142,7 +149,7 @@ impl Extent {
 struct Set {
     start: usize,
     end: usize,
-    extent: Extent,
+    extent: Wide,
     /// Not to be cut further.
     is_leaf: bool,
 }
@@ -161,6 +168,21 @@ enum Part<S> {
     Forked { node: Box<Node>, parts: Vec<(usize, Self)>, store: S },
 }
 
+impl<S: Store> Part<S> {
+    /// How many nodes and units it has.
+    fn len(&self) -> (usize, usize) {
+        match self {
+            Self::Whole { nodes, store, .. } => (nodes.len(), store.len()),
+            Self::Forked { parts, store, .. } => {
+                parts.iter().fold((1, store.len()), |(nodes, units), (_, part)| {
+                    let (more_nodes, more_units) = part.len();
+                    (nodes + more_nodes, units + more_units)
+                })
+            }
+        }
+    }
+}
+
 pub(crate) struct Builder {
     _options: BuildOptions,
 }
@@ -172,8 +194,8 @@ impl Builder {
 
     /// Builds a tree, and fills a store with what is in its leaves.
     pub(crate) fn build<S: Store>(&self, mut primitives: Vec<Primitive>, store: S) -> (Tree, S) {
-        let extent = Extent::of(&primitives);
-        let bounds = extent.bounds.bounds();
+        let extent = extent(&primitives);
+        let bounds = extent.bounds();
         let mut tree = Tree { nodes: Vec::new(), root: None, bounds, reach: bounds.reach(), stack: 1 };
         let mut all = store.empty();
         if primitives.is_empty() {
@@ -182,9 +204,10 @@ impl Builder {
         let set = Set { start: 0, end: primitives.len(), extent, is_leaf: false };
         let part = self.part(&mut primitives, set, &store, 0);
         drop(primitives);
+        let (nodes, units) = part.len();
+        tree.nodes.reserve_exact(nodes);
+        all.reserve(units);
         let (root, depth) = flatten(part, &mut tree.nodes, &mut all);
-        tree.nodes.shrink_to_fit();
-        all.finish();
         tree.root = Some(root);
         tree.stack = (WIDTH - 1) * depth + 1;
         (tree, all)
@@ -206,9 +229,9 @@ impl Builder {
             let (before, after) = rest.split_at_mut(child.end - taken);
             (rest, taken) = (after, child.end);
             if child.is_leaf {
-                node.set(slot, &child.extent.bounds.bounds(), push(before, &mut own));
+                node.set(slot, &child.extent.bounds(), push(before, &mut own));
             } else {
-                node.set(slot, &child.extent.bounds.bounds(), Child::node(0));
+                node.set(slot, &child.extent.bounds(), Child::node(0));
                 let here = Set { start: 0, end: before.len(), ..*child };
                 jobs.push((slot, before, here));
             }
@@ -224,7 +247,7 @@ impl Builder {
     /// Builds a set's nodes, its own first. Returns how deep they go.
     fn whole<S: Store>(&self, primitives: &mut [Primitive], set: Set, store: &mut S) -> (Vec<Node>, usize) {
         let mut binary = Vec::with_capacity(set.len());
-        halve::<S>(primitives, set, &mut binary, 0);
+        halve::<S>(primitives, set, &mut binary, 0, &mut Box::new(NO_BINS));
         let leaf = |count: usize| {
             let units = count.div_ceil(S::UNIT);
             (units <= MOST_UNITS).then_some(units as f32)
@@ -237,10 +260,11 @@ impl Builder {
 
     /// Cuts a set into up to eight, in the order of their places.
     fn cut<S: Store>(&self, primitives: &mut [Primitive], set: Set, depth: usize) -> Vec<Set> {
+        let mut bins = Box::new(NO_BINS);
         let mut sets = Vec::with_capacity(WIDTH);
         sets.push(set);
         while sets.len() < WIDTH {
-            let area = |set: &Set| set.extent.bounds.bounds().half_area();
+            let area = |set: &Set| set.extent.bounds().half_area();
             let mut largest: Option<usize> = None;
             for (index, set) in sets.iter().enumerate() {
                 if !set.is_leaf && largest.is_none_or(|other| area(set) > area(&sets[other])) {
@@ -248,7 +272,7 @@ impl Builder {
                 }
             }
             let Some(index) = largest else { break };
-            match split::<S>(primitives, &sets[index], depth) {
+            match split::<S>(primitives, &sets[index], depth, &mut bins) {
                 Some([left, right]) => {
                     sets[index] = left;
                     sets.insert(index + 1, right);
@@ -261,13 +285,19 @@ impl Builder {
 }
 
 /// Cuts a set in two, and those again, as long as it can be done. Their nodes follow one upon the other.
-fn halve<S: Store>(primitives: &mut [Primitive], set: Set, nodes: &mut Vec<Binary>, depth: usize) -> usize {
+fn halve<S: Store>(
+    primitives: &mut [Primitive],
+    set: Set,
+    nodes: &mut Vec<Binary>,
+    depth: usize,
+    bins: &mut Bins,
+) -> usize {
     let index = nodes.len();
     let places = set.start..set.end;
-    nodes.push(Binary { bounds: set.extent.bounds.bounds(), places, children: None });
-    if let Some([left, right]) = split::<S>(primitives, &set, depth) {
-        let left = halve::<S>(primitives, left, nodes, depth + 1);
-        let right = halve::<S>(primitives, right, nodes, depth + 1);
+    nodes.push(Binary { bounds: set.extent.bounds(), places, children: None });
+    if let Some([left, right]) = split::<S>(primitives, &set, depth, bins) {
+        let left = halve::<S>(primitives, left, nodes, depth + 1, bins);
+        let right = halve::<S>(primitives, right, nodes, depth + 1, bins);
         nodes[index].children = Some([left, right]);
     }
     index
@@ -285,7 +315,7 @@ fn emit<S: Store>(
     let place = nodes.len();
     nodes.push(Node::EMPTY);
     let mut deepest = 0;
-    for (slot, child) in collapse.children(index).into_iter().enumerate() {
+    for (slot, child) in collapse.children(index).iter().enumerate() {
         let reference = if collapse.is_leaf(child) {
             push(&primitives[binary[child].places.clone()], store)
         } else {
@@ -337,7 +367,13 @@ struct Bin {
     count: u32,
 }
 
+/// For each axis; as many as a set needs are in use.
 type Bins = [[Bin; MOST_BINS]; 3];
+
+const NO_BINS: Bins = [[Bin { extent: Wide::EMPTY, count: 0 }; MOST_BINS]; 3];
+
+/// From here on, floats are whole numbers, whose lowest bits are those of the float.
+const WHOLE: f32 = (1 << 23) as f32;
 
 /// From a middle to a bin.
 struct Ruler {
@@ -347,73 +383,105 @@ struct Ruler {
 }
 
 impl Ruler {
-    fn new(set: &Set) -> Self {
-        let bins = (4 + set.len() / 20).min(MOST_BINS);
-        let least = set.extent.middles.bounds().min;
-        let extent = set.extent.middles.bounds().extent();
+    fn new(count: usize, middles: &Wide) -> Self {
+        let bins = (4 + count / 20).min(MOST_BINS);
+        let middles = middles.bounds();
         // Not along axes in which all middles are the same, or too far apart to be told.
-        let scale = extent.map(|x| {
+        let scale = middles.extent().map(|x| {
             let scale = bins as f32 * 0.999_99 / x;
             if x > 0.0 && scale.is_finite() { scale } else { 0.0 }
         });
-        Self { bins, least, scale }
+        Self { bins, least: middles.min, scale }
     }
 
+    /// Adding 2^23 leaves the whole part in the lowest bits: quicker than a conversion, which has to mind numbers that do
+    /// not fit.
     #[inline(always)]
     fn bin(&self, primitive: &Primitive, axis: usize) -> usize {
-        (((primitive.middle(axis) - self.least[axis]) * self.scale[axis]) as usize).min(self.bins - 1)
+        let place = (primitive.middle(axis) - self.least[axis]) * self.scale[axis];
+        let place = place + (WHOLE - 0.5);
+        (if place > WHOLE { place } else { WHOLE }).to_bits() as usize & (MOST_BINS - 1)
     }
 
-    fn count(&self, primitives: &[Primitive]) -> Bins {
-        let mut bins = [[Bin { extent: Wide::EMPTY, count: 0 }; MOST_BINS]; 3];
+    /// By the vectors that every machine of the kind has: the compiler finds worse ones, and each call is too short to look
+    /// for better.
+    fn count(&self, primitives: &[Primitive], bins: &mut Bins) {
+        dispatch!(Level::baseline(), simd => self.count_in(simd, primitives, bins));
+    }
+
+    /// The same arithmetic as in `bin`, for all axes at once.
+    #[inline(always)]
+    fn count_in<S: Simd>(&self, simd: S, primitives: &[Primitive], bins: &mut Bins) {
+        let [bins_x, bins_y, bins_z] = bins;
+        for bins in [&mut *bins_x, &mut *bins_y, &mut *bins_z] {
+            bins[..self.bins].fill(Bin { extent: Wide::EMPTY, count: 0 });
+        }
+        let four = |[x, y, z]: [f32; 3]| -> f32x4<S> { [x, y, z, 0.0].simd_into(simd) };
+        let (least, scale) = (four(self.least), four(self.scale));
+        let whole = f32x4::splat(simd, WHOLE);
         for primitive in primitives {
-            let min = [primitive.min[0], primitive.min[1], primitive.min[2], 0.0];
-            let max = [primitive.max[0], primitive.max[1], primitive.max[2], 0.0];
-            for (axis, bins) in bins.iter_mut().enumerate() {
-                let bin = &mut bins[self.bin(primitive, axis) & (MOST_BINS - 1)];
-                bin.extent.add(min, max);
+            let min: f32x4<S> = primitive.min.simd_into(simd);
+            let max: f32x4<S> = primitive.max.simd_into(simd);
+            let place = (min * 0.5 + max * 0.5 - least) * scale + (WHOLE - 0.5);
+            let [x, y, z, _]: [f32; 4] = place.max(whole).into();
+            let add = |bin: &mut Bin| {
+                let here: f32x4<S> = bin.extent.min.simd_into(simd);
+                bin.extent.min = here.min(min).into();
+                let here: f32x4<S> = bin.extent.max.simd_into(simd);
+                bin.extent.max = here.max(max).into();
                 bin.count += 1;
-            }
+            };
+            add(&mut bins_x[x.to_bits() as usize & (MOST_BINS - 1)]);
+            add(&mut bins_y[y.to_bits() as usize & (MOST_BINS - 1)]);
+            add(&mut bins_z[z.to_bits() as usize & (MOST_BINS - 1)]);
         }
-        bins
     }
 
-    fn count_all(&self, primitives: &[Primitive]) -> Bins {
+    fn count_all(&self, primitives: &[Primitive], bins: &mut Bins) {
         if primitives.len() <= CHUNK {
-            return self.count(primitives);
+            return self.count(primitives, bins);
         }
-        let empty = || [[Bin { extent: Wide::EMPTY, count: 0 }; MOST_BINS]; 3];
-        primitives.par_chunks(CHUNK).map(|chunk| self.count(chunk)).reduce(empty, |mut a, b| {
-            for (a, b) in a.as_flattened_mut().iter_mut().zip(b.as_flattened()) {
-                a.extent.add(b.extent.min, b.extent.max);
-                a.count += b.count;
-            }
-            a
-        })
+        let count = |chunk: &[Primitive]| {
+            let mut bins = NO_BINS;
+            self.count(chunk, &mut bins);
+            bins
+        };
+        *bins = primitives.par_chunks(CHUNK).map(count).reduce(
+            || NO_BINS,
+            |mut a, b| {
+                for (a, b) in a.as_flattened_mut().iter_mut().zip(b.as_flattened()) {
+                    a.extent.add(b.extent.min, b.extent.max);
+                    a.count += b.count;
+                }
+                a
+            },
+        );
     }
 
-    /// The cheapest cut, its cost in areas times units: axis and the first bin on the right.
-    fn best<S: Store>(&self, bins: &Bins) -> Option<(f32, usize, usize)> {
-        let mut best: Option<(f32, usize, usize)> = None;
+    /// The cheapest cut in areas times units, if there is any.
+    fn best<S: Store>(&self, bins: &Bins) -> Option<Cut> {
+        let (mut best, mut least) = (None, f32::INFINITY);
         for (axis, bins) in bins.iter().enumerate() {
             if self.scale[axis] == 0.0 {
                 continue;
             }
-            let mut right = [0.0; MOST_BINS];
+            let bins = &bins[..self.bins];
+            let mut right = [(0.0, Wide::EMPTY); MOST_BINS];
             let (mut extent, mut count) = (Wide::EMPTY, 0);
-            for cut in (1..self.bins).rev() {
-                extent.add(bins[cut].extent.min, bins[cut].extent.max);
-                count += bins[cut].count;
-                right[cut] = cost::<S>(&extent, count);
+            for (cut, bin) in bins.iter().enumerate().skip(1).rev() {
+                extent.add(bin.extent.min, bin.extent.max);
+                count += bin.count;
+                right[cut] = (cost::<S>(&extent, count), extent);
             }
+            let total = count + bins[0].count;
             (extent, count) = (Wide::EMPTY, 0);
-            let total: u32 = bins[..self.bins].iter().map(|bin| bin.count).sum();
-            for cut in 1..self.bins {
-                extent.add(bins[cut - 1].extent.min, bins[cut - 1].extent.max);
-                count += bins[cut - 1].count;
-                let cost = cost::<S>(&extent, count) + right[cut];
-                if count > 0 && count < total && best.is_none_or(|(least, ..)| cost < least) {
-                    best = Some((cost, axis, cut));
+            for (cut, bin) in (1..self.bins).zip(bins) {
+                extent.add(bin.extent.min, bin.extent.max);
+                count += bin.count;
+                let cost = cost::<S>(&extent, count) + right[cut].0;
+                if cost < least && count > 0 && count < total {
+                    least = cost;
+                    best = Some(Cut { axis, bin: cut, extents: [extent, right[cut].1] });
                 }
             }
         }
@@ -421,48 +489,57 @@ impl Ruler {
     }
 }
 
+/// Where to cut a set, and what its parts extend over.
+struct Cut {
+    axis: usize,
+    /// The first on the right.
+    bin: usize,
+    extents: [Wide; 2],
+}
+
 fn cost<S: Store>(extent: &Wide, count: u32) -> f32 {
     if count == 0 { 0.0 } else { extent.bounds().half_area() * count.div_ceil(S::UNIT as u32) as f32 }
 }
 
 /// Cuts a set in two, unless it had better be a leaf.
-fn split<S: Store>(primitives: &mut [Primitive], set: &Set, depth: usize) -> Option<[Set; 2]> {
+fn split<S: Store>(
+    primitives: &mut [Primitive],
+    set: &Set,
+    depth: usize,
+    bins: &mut Bins,
+) -> Option<[Set; 2]> {
     let count = set.len();
     if count <= S::UNIT {
         return None;
     }
     let here = &mut primitives[set.start..set.end];
-    let fits = count <= MOST_UNITS * S::UNIT;
-    let ruler = Ruler::new(set);
-    let best = if depth < DEEPEST { ruler.best::<S>(&ruler.count_all(here)) } else { None };
-    let Some((_, axis, cut)) = best else {
-        if fits {
-            return None;
-        }
-        return Some(halves(here, set));
+    let ruler = Ruler::new(count, &middles(here));
+    let best = if depth < DEEPEST {
+        ruler.count_all(here, bins);
+        ruler.best::<S>(bins)
+    } else {
+        None
     };
-    let (mut left, mut right) = (Extent::EMPTY, Extent::EMPTY);
-    let (mut low, mut high) = (0, here.len());
-    while low < high {
-        if ruler.bin(&here[low], axis) < cut {
-            left.add(&here[low]);
-            low += 1;
-        } else {
-            high -= 1;
-            right.add(&here[low]);
-            here.swap(low, high);
-        }
+    let Some(cut) = best else {
+        let fits = count <= MOST_UNITS * S::UNIT;
+        return (!fits).then(|| halves(here, set));
+    };
+    // What has been seen of the right side lies from `left` on, in any order. Each thing is exchanged with the first of these,
+    // and belongs to the left side if that grows: there is no branch, which would be wrong half of the time.
+    let mut left = 0;
+    for place in 0..here.len() {
+        let is_left = ruler.bin(&here[place], cut.axis) < cut.bin;
+        here.swap(left, place);
+        left += usize::from(is_left);
     }
-    let middle = set.start + low;
-    Some([Set { end: middle, extent: left, ..*set }, Set { start: middle, extent: right, ..*set }])
+    let middle = set.start + left;
+    let [low, high] = cut.extents;
+    Some([Set { end: middle, extent: low, ..*set }, Set { start: middle, extent: high, ..*set }])
 }
 
 /// Cuts a set in the middle, as its things lie.
 fn halves(here: &[Primitive], set: &Set) -> [Set; 2] {
     let (left, right) = here.split_at(here.len() / 2);
     let middle = set.start + left.len();
-    [
-        Set { end: middle, extent: Extent::of(left), ..*set },
-        Set { start: middle, extent: Extent::of(right), ..*set },
-    ]
+    [Set { end: middle, extent: extent(left), ..*set }, Set { start: middle, extent: extent(right), ..*set }]
 }

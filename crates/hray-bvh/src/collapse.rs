@@ -29,12 +29,30 @@ enum Plan {
     Share(u8),
 }
 
+/// Up to `WIDTH` nodes.
+#[derive(Default)]
+pub(crate) struct Children {
+    nodes: [usize; WIDTH],
+    count: usize,
+}
+
+impl Children {
+    fn push(&mut self, node: usize) {
+        self.nodes[self.count] = node;
+        self.count += 1;
+    }
+
+    pub(crate) fn iter(&self) -> impl Iterator<Item = usize> {
+        self.nodes[..self.count].iter().copied()
+    }
+}
+
 /// The best plan of each node, for each number of roots from 1 to `WIDTH`.
 pub(crate) struct Collapse<'a> {
     nodes: &'a [Binary],
     plans: Vec<[Plan; WIDTH]>,
-    /// How many of a node's own children come from the first.
-    shares: Vec<u8>,
+    /// How many of a node's own children come from the first, and how many there are.
+    shares: Vec<(u8, u8)>,
 }
 
 impl<'a> Collapse<'a> {
@@ -42,33 +60,47 @@ impl<'a> Collapse<'a> {
     pub(crate) fn new(nodes: &'a [Binary], node: f32, leaf: impl Fn(usize) -> Option<f32>) -> Self {
         let mut costs = vec![[f32::INFINITY; WIDTH]; nodes.len()];
         let mut plans = vec![[Plan::Fewer; WIDTH]; nodes.len()];
-        let mut shares = vec![0; nodes.len()];
+        let mut shares = vec![(1, 2); nodes.len()];
+        // The most roots that a node can give: near the leaves, where most nodes are, that is few.
+        let mut most = vec![1u8; nodes.len()];
         for (index, binary) in nodes.iter().enumerate().rev() {
             let area = binary.bounds.half_area();
-            let as_leaf = leaf(binary.places.len()).map(|cost| area * cost);
-            let mut cost = [as_leaf.unwrap_or(f32::INFINITY); WIDTH];
-            plans[index][0] = Plan::Leaf;
-            if let Some([left, right]) = binary.children {
-                let shared: [(f32, u8); WIDTH] = std::array::from_fn(|more| {
-                    let mut best = (f32::INFINITY, 1);
-                    for share in 1..=more {
-                        let cost = costs[left][share - 1] + costs[right][more - share];
-                        if cost < best.0 {
-                            best = (cost, share as u8);
-                        }
+            let as_leaf = leaf(binary.places.len()).map_or(f32::INFINITY, |cost| area * cost);
+            let plan = &mut plans[index];
+            plan[0] = Plan::Leaf;
+            let Some([left, right]) = binary.children else {
+                costs[index] = [as_leaf; WIDTH];
+                continue;
+            };
+            let (of_left, of_right) = (usize::from(most[left]), usize::from(most[right]));
+            let roots = (of_left + of_right).min(WIDTH);
+            most[index] = roots as u8;
+            // The cheapest way to give so many roots, less one; none gives 1.
+            let mut shared = [(f32::INFINITY, 1); WIDTH];
+            for first in 0..of_left {
+                for second in 0..of_right.min(WIDTH - 1 - first) {
+                    let cost = costs[left][first] + costs[right][second];
+                    if cost < shared[first + second + 1].0 {
+                        shared[first + second + 1] = (cost, first as u8 + 1);
                     }
-                    best
-                });
-                shares[index] = shared[WIDTH - 1].1;
-                let as_node = area * node + shared[WIDTH - 1].0;
-                if as_leaf.is_none_or(|as_leaf| as_node < as_leaf) {
-                    (cost[0], plans[index][0]) = (as_node, Plan::Node);
                 }
-                for more in 1..WIDTH {
-                    cost[more] = cost[more - 1];
-                    if shared[more].0 < cost[more] {
-                        (cost[more], plans[index][more]) = (shared[more].0, Plan::Share(shared[more].1));
-                    }
+            }
+            let mut own = 1;
+            for more in 2..roots {
+                if shared[more].0 < shared[own].0 {
+                    own = more;
+                }
+            }
+            shares[index] = (shared[own].1, own as u8 + 1);
+            let as_node = area * node + shared[own].0;
+            let mut cost = [as_leaf; WIDTH];
+            if as_node < as_leaf || as_leaf == f32::INFINITY {
+                (cost[0], plan[0]) = (as_node, Plan::Node);
+            }
+            for more in 1..WIDTH {
+                cost[more] = cost[more - 1];
+                if shared[more].0 < cost[more] {
+                    (cost[more], plan[more]) = (shared[more].0, Plan::Share(shared[more].1));
                 }
             }
             costs[index] = cost;
@@ -82,20 +114,20 @@ impl<'a> Collapse<'a> {
     }
 
     /// The children that a node gets, in order; of a leaf, itself.
-    pub(crate) fn children(&self, index: usize) -> Vec<usize> {
-        let mut children = Vec::with_capacity(WIDTH);
+    pub(crate) fn children(&self, index: usize) -> Children {
+        let mut children = Children::default();
         match self.nodes[index].children {
             Some([left, right]) if !self.is_leaf(index) => {
-                let share = usize::from(self.shares[index]);
-                self.gather(left, share, &mut children);
-                self.gather(right, WIDTH - share, &mut children);
+                let (share, roots) = self.shares[index];
+                self.gather(left, usize::from(share), &mut children);
+                self.gather(right, usize::from(roots - share), &mut children);
             }
             _ => children.push(index),
         }
         children
     }
 
-    fn gather(&self, index: usize, roots: usize, children: &mut Vec<usize>) {
+    fn gather(&self, index: usize, roots: usize, children: &mut Children) {
         match (self.plans[index][roots - 1], self.nodes[index].children) {
             (Plan::Share(share), Some([left, right])) => {
                 self.gather(left, usize::from(share), children);

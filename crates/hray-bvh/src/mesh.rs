@@ -54,7 +54,7 @@ impl std::error::Error for MeshError {}
 /// Triangles that share vertices, in a tree.
 ///
 /// Triangles with a coordinate that is no number, or infinite, are never hit.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct TriangleMesh {
     tree: Tree,
     blocks: Vec<Block>,
@@ -210,8 +210,8 @@ impl Store for Packed<'_> {
         for chunk in primitives.chunks(4) {
             let mut block = Block::EMPTY;
             for (lane, primitive) in chunk.iter().enumerate() {
-                block.numbers[lane] = primitive.number;
-                for (corner, &vertex) in self.triangles[primitive.number as usize].iter().enumerate() {
+                block.numbers[lane] = primitive.number();
+                for (corner, &vertex) in self.triangles[primitive.number() as usize].iter().enumerate() {
                     for axis in 0..3 {
                         block.vertices[corner][axis][lane] = self.vertices[vertex as usize][axis];
                     }
@@ -225,7 +225,7 @@ impl Store for Packed<'_> {
         self.blocks.extend(other.blocks);
     }
 
-    fn finish(&mut self) {
-        self.blocks.shrink_to_fit();
+    fn reserve(&mut self, units: usize) {
+        self.blocks.reserve_exact(units);
     }
 }

@@ -3,9 +3,14 @@
 use fearless_simd::f32x4;
 use fearless_simd::prelude::*;
 
-/// How far, in units of the greatest coordinate involved, rounding may move the result of a leaf's test or of a box's. A leaf
-/// test rounds a dozen times (2^-24 each); the rest is margin for a ray that was rounded from doubles.
-pub(crate) const SLACK: f32 = 1.0 / (1u32 << 20) as f32;
+/// How far, as a share of the greatest coordinates involved, rounding may move what a leaf's test finds, or a box.
+///
+/// Let e be 2^-24, and A the greatest coordinate of the origin plus that of the things. The test of triangles moves a vertex by
+/// up to 7 e A, sheared. A product in an edge function is at most 9 times the determinant (`FLAT`, and the determinant itself), so
+/// the weights move the point that a ray meets by 6 e times 9 times the sheared triangle's size, up to 4 A: 216 e A. The
+/// distance of that is rounded a few times, 10 e A, and the distance of a box's face as well, 5 e A. Together that is less than
+/// 256 e A.
+pub(crate) const SLACK: f32 = 1.0 / (1u32 << 16) as f32;
 
 /// Components of a direction are not taken to be less than this share of the greatest one: their reciprocals stay finite.
 pub(crate) const FLATTEST: f32 = 1e-18;
@@ -30,27 +35,15 @@ pub struct Ray {
 }
 
 impl Ray {
-    /// One that meets nothing.
-    pub const NOWHERE: Self = Self {
-        origin: [0.0; 3],
-        direction: [0.0; 3],
-        near: 1.0,
-        far: 0.0,
-        inverse: [0.0; 3],
-        offset: [[0.0; 3]; 2],
-        down: [0; 3],
-    };
-
     /// Makes a ray ready for boxes.
     ///
-    /// Each axis' slab is widened by `SLACK` times the greatest coordinate in play: the reciprocal, the product and the sum
-    /// that give the distance of a plane together move it by no more than a few units in the last place of that, and
-    /// so does the test in a leaf, which takes coordinates relative to the ray's origin. Along the axis in which the ray goes
-    /// farthest, the widening is at least the error of a distance that a leaf finds; so a box is never left out though a hit
-    /// in it would count (compare Ize, Robust BVH Ray Traversal, JCGT 2013, who widens by units in the last place of the
-    /// distance, for exact leaves).
+    /// Each axis' slab is widened by `SLACK` times the greatest coordinates in play: by more than rounding moves a hit that a
+    /// leaf's test finds out of the hit thing's box, plus what it moves the box's faces. So a box is never left out though a
+    /// hit in it would count (compare Ize, Robust BVH Ray Traversal, JCGT 2013, who widens by units in the last place of
+    /// the distance, for exact leaves).
     ///
-    /// Where the numbers leave the range of single precision, the ray meets nothing ([`Ray::is_sane`]).
+    /// Rays that no box can be tested against meet nothing: those with an origin or a direction that is no number, or with a
+    /// direction that is 0 or less than about 1e-20 times the coordinates.
     ///
     /// `reach` is the greatest coordinate of the things ([`Bounds::reach`](crate::Bounds::reach)).
     #[inline(always)]
@@ -69,35 +62,26 @@ impl Ray {
             #[inline(always)]
             |d| if d.abs() < flattest { flattest.copysign(d) } else { d },
         );
-        let from: f32x4<S> = [origin[0], origin[1], origin[2], 0.0].simd_into(simd);
+        let from: f32x4<S> = [origin[0], origin[1], origin[2], near].simd_into(simd);
         let along: f32x4<S> = along.simd_into(simd);
         let inverse = f32x4::splat(simd, 1.0) / along;
         let centre = from * inverse;
         let widen = inverse.abs() * slack;
         let first = -(centre + widen);
         let last = widen - centre;
-        // What is no number would meet even the boxes of nothing.
-        let sane = (first.abs() + last.abs()).simd_lt(f32::INFINITY).all_true();
         let down = along.simd_lt(0.0).to_bitmask() as usize;
+        // Where something is no number or too great, the ray meets nothing; it could meet boxes that are not there.
+        let finite = ((centre.abs() + widen + along.abs()) * 0.0).simd_eq(0.0).to_bitmask() == 0b1111;
         Self {
             origin,
             direction,
             near,
             // An endless distance would let that of a flat triangle pass.
-            far: if sane { far.min(f32::MAX) } else { f32::NEG_INFINITY },
+            far: if finite { far.min(f32::MAX) } else { -1.0 },
             inverse: three(inverse),
             offset: [three(first), three(last)],
             down: [down & 1, (down >> 1) & 1, (down >> 2) & 1],
         }
-    }
-}
-
-impl Ray {
-    /// Whether the ray is one that can meet anything: its numbers are in the range of single precision.
-    #[inline(always)]
-    #[must_use]
-    pub fn is_sane(&self) -> bool {
-        self.far > f32::NEG_INFINITY
     }
 }
 

@@ -20,7 +20,7 @@ pub(crate) const MOST: usize = 1 << COUNT_SHIFT;
 
 /// Eight boxes, and what is in them. Four cache lines.
 #[repr(C, align(64))]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Node {
     /// Least x, greatest x, least y, ...: so that a ray's direction picks the planes that it comes to first.
     pub(crate) bounds: [[f32; WIDTH]; 6],
@@ -160,7 +160,7 @@ pub(crate) fn entry(distance: f32, child: u32) -> u64 {
 }
 
 /// A tree of boxes of eight children.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Tree {
     pub(crate) nodes: Vec<Node>,
     pub(crate) root: Option<Child>,
@@ -275,6 +275,16 @@ impl Tree {
                     self.prefetch(child, leaves);
                     let distances: [f32; WIDTH] = enter.into();
                     let mut nearest = entry(distances[slot], child);
+                    if met & (met - 1) == 0 {
+                        // Two, most often: no loop.
+                        let slot = (met.trailing_zeros() & 7) as usize;
+                        self.prefetch(node.children[slot], leaves);
+                        let new = entry(distances[slot], node.children[slot]);
+                        entries[top] = nearest.max(new);
+                        top += 1;
+                        child = nearest.min(new) as u32;
+                        continue;
+                    }
                     let bottom = top;
                     // Keeps those left for later in order, the nearest last: few are met, so insertion is quickest.
                     while met != 0 {
@@ -282,14 +292,14 @@ impl Tree {
                         met &= met - 1;
                         self.prefetch(node.children[slot], leaves);
                         let new = entry(distances[slot], node.children[slot]);
-                        let mut farther = nearest.max(new);
+                        let farther = nearest.max(new);
                         nearest = nearest.min(new);
                         let mut at = top;
                         while at > bottom && entries[at - 1] < farther {
                             entries[at] = entries[at - 1];
                             at -= 1;
                         }
-                        std::mem::swap(&mut entries[at], &mut farther);
+                        entries[at] = farther;
                         top += 1;
                     }
                     child = nearest as u32;
@@ -333,14 +343,14 @@ impl Store for Numbers {
     }
 
     fn push(&mut self, primitives: &[Primitive]) {
-        self.0.extend(primitives.iter().map(|primitive| primitive.number));
+        self.0.extend(primitives.iter().map(Primitive::number));
     }
 
     fn append(&mut self, other: Self) {
         self.0.extend(other.0);
     }
 
-    fn finish(&mut self) {
-        self.0.shrink_to_fit();
+    fn reserve(&mut self, units: usize) {
+        self.0.reserve_exact(units);
     }
 }

@@ -9,7 +9,7 @@ use std::sync::Arc;
 
 /// How far off a surface a ray has to start so that it does not meet the same spot again, relative to the greatest coordinate
 /// of the mesh: the rounding of the start to single precision, and of the test of a triangle, each a few times 2^-24.
-const CLEAR: f64 = 1.0 / (1 << 20) as f64;
+const CLEAR: f64 = 1.0 / (1 << 18) as f64;
 
 /// A mesh and the tree over its triangles.
 pub(super) struct PreparedMesh {
