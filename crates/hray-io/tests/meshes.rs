@@ -194,7 +194,7 @@ fn bad_files_are_told_where_they_are_bad() {
     assert_eq!(ply("1 0 0 255", "1 0 0z 255"), "line 20: the z of a vertex must be a number, and is \"0z\"");
     assert_eq!(
         ply("vertex 5", "vertex 999999999999"),
-        "line 19: the header says that 999999999999 of `vertex` follow, but the file has only 114 bytes more"
+        "line 19: the header says that 999999999999 of `vertex` follow, but the file has only 117 bytes more"
     );
     assert!(ply("vertex 5", "vertex 6").starts_with("line 26: "), "{}", ply("vertex 5", "vertex 6"));
     assert_eq!(

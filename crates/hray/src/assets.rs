@@ -1,6 +1,6 @@
 //! What scenes read besides their own text: files in one folder.
 
-use crate::{Image, Input, InputError};
+use crate::{Image, Input, InputError, Model};
 use hray_io::{Folder, FolderError};
 use hray_lang::hry::assets::{AssetError, Assets};
 use std::collections::BTreeMap;
@@ -16,6 +16,8 @@ pub(crate) struct FolderAssets {
     folder: Option<Folder>,
     /// Images that were read already, by their paths.
     images: Mutex<BTreeMap<String, Arc<Image>>>,
+    /// Files of meshes, too.
+    models: Mutex<BTreeMap<String, Arc<Model>>>,
 }
 
 impl FolderAssets {
@@ -43,7 +45,7 @@ impl FolderAssets {
     }
 
     fn new(folder: Option<Folder>) -> Self {
-        Self { folder, images: Mutex::default() }
+        Self { folder, images: Mutex::default(), models: Mutex::default() }
     }
 
     fn folder(&self) -> Result<&Folder, AssetError> {
@@ -68,6 +70,16 @@ impl Assets for FolderAssets {
         let mut images = self.images.lock().unwrap_or_else(PoisonError::into_inner);
         images.insert(path.to_owned(), image.clone());
         Ok(image)
+    }
+
+    fn model(&self, path: &str) -> Result<Arc<Model>, AssetError> {
+        if let Some(model) = self.models.lock().unwrap_or_else(PoisonError::into_inner).get(path) {
+            return Ok(model.clone());
+        }
+        let model = Arc::new(self.folder()?.model(path).map_err(unavailable)?);
+        let mut models = self.models.lock().unwrap_or_else(PoisonError::into_inner);
+        models.insert(path.to_owned(), model.clone());
+        Ok(model)
     }
 
     fn neighbours(&self, path: &str) -> Vec<String> {
