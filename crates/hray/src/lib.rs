@@ -48,6 +48,7 @@ mod assets;
 mod error;
 mod findings;
 mod format;
+mod model_scene;
 mod options;
 mod picture;
 mod render;
@@ -58,11 +59,12 @@ mod work_folder;
 pub use error::{Error, LoadError};
 pub use findings::{Finding, FindingLabel, FindingPlace, FindingSuggestion, Findings};
 pub use format::{FormatErrors, Formatted, format_scene};
+pub use model_scene::scene_of_model;
 pub use options::{Options, OptionsError};
 pub use picture::Picture;
 pub use render::{render_frame, render_to, render_to_bytes, render_to_file, render_to_memory};
-pub use scene_file::{LoadOptions, Moments, SceneFile, load};
-pub use summary::{Bounds, CameraSummary, Materials, Objects, Summary, WorstCase};
+pub use scene_file::{LoadOptions, Moments, SceneFile, load, model_scene};
+pub use summary::{Bounds, CameraSummary, Materials, Meshes, Objects, Summary, WorstCase};
 pub use work_folder::{OpenTexts, WorkAssets, WorkFolder};
 
 pub use hray_core::{
