@@ -300,6 +300,32 @@ fn empty_and_odd_files_are_read() {
     assert_eq!(mesh("a.ply", strips).triangles(), [[0, 1, 2], [2, 1, 3], [0, 1, 3]]);
 }
 
+#[test]
+fn the_fuzz_corpus_is_read_or_refused() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../fuzz/corpus/mesh");
+    let mut read = [0, 0];
+    for entry in fs::read_dir(folder).unwrap() {
+        let bytes = fs::read(entry.unwrap().path()).unwrap();
+        let Some((first, rest)) = bytes.split_first() else { continue };
+        let names = ["a.ply", "a.stl", "a.obj", "a.gltf", "a.glb"];
+        let files = |_: &str| Ok(rest.to_vec());
+        match decode_model(rest, Path::new(names[usize::from(*first) % names.len()]), &files) {
+            Ok(model) => {
+                read[0] += 1;
+                for part in &model.parts {
+                    let smooth = part.mesh.smoothed(0.75);
+                    assert_eq!(smooth.triangles().len(), part.mesh.triangles().len());
+                }
+            }
+            Err(error) => {
+                read[1] += 1;
+                assert!(!error.reason().is_empty());
+            }
+        }
+    }
+    assert!(read[0] >= 9 && read[1] >= 5, "{read:?}");
+}
+
 fn sample() -> Mesh {
     let points = vec![[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.5]];
     Mesh::new(points, vec![[0, 1, 2], [0, 2, 3]]).unwrap()

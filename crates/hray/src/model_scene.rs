@@ -31,7 +31,7 @@ pub fn scene_of_model(file: &str, model: &Model) -> String {
     let has_normals = model.parts.iter().all(|part| !part.mesh.normals().is_empty());
     let smooth = if has_normals || is_stl { "" } else { ", smooth = true" };
     let mesh = format!("mesh {{ file = {}{smooth} }}", quoted(file));
-    let placed = if is_stl { format!("rotate (1, 0, 0) (-90deg) ({mesh})") } else { mesh };
+    let placed = if is_stl { format!("{mesh} |> rotate (1, 0, 0) -90deg") } else { mesh };
     let mut text = String::new();
     let triangles: usize = model.parts.iter().map(|part| part.mesh.triangles().len()).sum();
     // Writing to a text does not fail.

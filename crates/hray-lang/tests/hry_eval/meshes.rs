@@ -92,8 +92,8 @@ fn meshes_count_as_memory() {
     let text = "scene = { objects = [mesh { file = \"a.ply\" }] }";
     let limits = Limits { memory: 50, ..Limits::default() };
     assert!(errors_with(text, &limits).contains("too-much-memory"));
-    let text = "scene = { objects = [triangles { points = [(0, 0, 0)], faces = [[0 | i <- 1..1000] | j <- 1..1000] }] }";
-    let text = text.replace("[0 | i <- 1..1000]", "corners") + "\ncorners = [0 | i <- 1..1000]";
+    let text = "scene = { objects = [triangles { points = [(0, 0, 0)], faces = [[0 | i <- [1 .. 1000]] | j <- [1 .. 1000]] }] }";
+    let text = text.replace("[0 | i <- [1 .. 1000]]", "corners") + "\ncorners = [0 | i <- [1 .. 1000]]";
     let limits = Limits { memory: 2_000_000, ..Limits::default() };
     assert!(errors_with(&text, &limits).contains("too-much-memory"));
 }
