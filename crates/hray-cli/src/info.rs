@@ -4,7 +4,9 @@ use crate::args::InfoArgs;
 use crate::console::Console;
 use crate::failure::Failure;
 use crate::summary::{counted, grouped};
-use hray::{CameraSummary, Error, Input, Language, LintLevels, Meshes, Objects, SceneFile, Summary, WorstCase};
+use hray::{
+    CameraSummary, Error, Input, Language, LintLevels, Meshes, Objects, SceneFile, Summary, WorstCase,
+};
 use std::fmt::Write;
 
 /// Shows what is in a scene.
@@ -105,7 +107,10 @@ fn write_meshes(out: &mut String, meshes: &Meshes) -> std::fmt::Result {
     let (count, triangles, vertices) =
         (grouped(meshes.count as u64), grouped(triangles as u64), grouped(vertices as u64));
     let mebibytes = bytes as f64 / f64::from(1 << 20);
-    writeln!(out, "meshes       {count}: {triangles} triangles{placed}, {vertices} vertices, {mebibytes:.1} MiB")?;
+    writeln!(
+        out,
+        "meshes       {count}: {triangles} triangles{placed}, {vertices} vertices, {mebibytes:.1} MiB"
+    )?;
     if let Some(bounds) = meshes.bounds {
         writeln!(out, "meshes in    {} to {}", triple(bounds.min), triple(bounds.max))?;
     }

@@ -30,7 +30,10 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         let model = hray_io::decode_model(&bytes, Path::new("a.ply"), &|_| Err(String::new()))?;
         let seconds = start.elapsed().as_secs_f64();
         let triangles: usize = model.parts.iter().map(|part| part.mesh.triangles().len()).sum();
-        println!("{triangles} triangles, {megabytes:.0} MB in {seconds:.3} s: {:.0} MB/s", megabytes / seconds);
+        println!(
+            "{triangles} triangles, {megabytes:.0} MB in {seconds:.3} s: {:.0} MB/s",
+            megabytes / seconds
+        );
     }
     Ok(())
 }

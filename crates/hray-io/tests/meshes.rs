@@ -196,7 +196,7 @@ fn bad_files_are_told_where_they_are_bad() {
         ply("vertex 5", "vertex 999999999999"),
         "line 19: the header says that 999999999999 of `vertex` follow, but the file has only 117 bytes more"
     );
-    assert!(ply("vertex 5", "vertex 6").starts_with("line 26: "), "{}", ply("vertex 5", "vertex 6"));
+    assert!(ply("vertex 5", "vertex 6").starts_with("line 27: "), "{}", ply("vertex 5", "vertex 6"));
     assert_eq!(
         ply("float x", "half x"),
         "line 5: the kinds of number are char, uchar, short, ushort, int, uint, float and double, and not \"half\""

@@ -70,13 +70,14 @@ pub use work_folder::{OpenTexts, WorkAssets, WorkFolder};
 pub use hray_core::{
     Background, Camera, Csg, CsgOperation, Cuboid, DAffine3, DMat3, DVec2, DVec3, Description,
     DescriptionError, Encoding, Field, Function, Image, Integrator, Light, MAX_DEPTH, MAX_PIXELS, MIN_DEPTH,
-    Material, Mesh, Model, ModelFormat, ModelMaterial, ModelPart, NoiseTables, NoiseTexture, OrthographicCamera, PerspectiveCamera, Plane, Primitive, Resolution,
-    Rgb, Scene, Shape, Sphere, Texture, WindowCamera,
+    Material, Mesh, Model, ModelFormat, ModelMaterial, ModelPart, NoiseTables, NoiseTexture,
+    OrthographicCamera, PerspectiveCamera, Plane, Primitive, Resolution, Rgb, Scene, Shape, Sphere, Texture,
+    WindowCamera,
 };
 pub use hray_io::{
-    AnimationFormat, AnimationWriter, Destination, Input, InputError, MAX_FPS, MAX_MODEL_BYTES, MAX_SOURCE_BYTES, MIN_FPS,
-    OutputError, PictureFormat, Quoted, TablesError, UnknownFormat, create_folder, model_format, parse_noise_tables,
-    read_model, read_noise_tables, read_source, same_file, write_text,
+    AnimationFormat, AnimationWriter, Destination, Input, InputError, MAX_FPS, MAX_MODEL_BYTES,
+    MAX_SOURCE_BYTES, MIN_FPS, OutputError, PictureFormat, Quoted, TablesError, UnknownFormat, create_folder,
+    model_format, parse_noise_tables, read_model, read_noise_tables, read_source, same_file, write_text,
 };
 pub use hray_lang::Language;
 pub use hray_lang::classic::write as write_classic;

@@ -155,7 +155,8 @@ mod tests {
         for position in mesh.positions() {
             let p = DVec3::from(position.map(f64::from)) - camera.from;
             let depth = p.dot(forward);
-            let (x, y) = (p.dot(right) / depth / tangent / ASPECT, p.dot(right.cross(forward)) / depth / tangent);
+            let (x, y) =
+                (p.dot(right) / depth / tangent / ASPECT, p.dot(right.cross(forward)) / depth / tangent);
             most = most.max(x.abs()).max(y.abs());
         }
         assert!((0.8..0.9).contains(&most), "{most}");

@@ -34,13 +34,16 @@ impl Assets for Files {
             name: String::new(),
             mesh: mesh.clone(),
             transform: (x != 0.0).then(|| DAffine3::from_translation(DVec3::new(x, 0.0, 0.0))),
-            material: (x != 0.0).then(|| Arc::new(ModelMaterial::new("red".to_owned(), Rgb::new(0.5, 0.0, 0.0)))),
+            material: (x != 0.0)
+                .then(|| Arc::new(ModelMaterial::new("red".to_owned(), Rgb::new(0.5, 0.0, 0.0)))),
         };
         let parts = vec![part(&mesh, 0.0), part(&mesh, 2.0), part(&Arc::default(), 3.0)];
         let parts = if path.ends_with(".ply") { parts.into_iter().take(1).collect() } else { parts };
         let notes = if path.ends_with(".obj") { vec!["curves are not read".to_owned()] } else { Vec::new() };
         match path.rsplit_once('.') {
-            Some((_, "ply" | "obj" | "glb")) => Ok(Arc::new(Model { format: ModelFormat::Obj, parts, notes })),
+            Some((_, "ply" | "obj" | "glb")) => {
+                Ok(Arc::new(Model { format: ModelFormat::Obj, parts, notes }))
+            }
             _ => Err(AssetError::NotFound),
         }
     }

@@ -30,14 +30,17 @@ fn a_file_gives_its_parts_with_their_colours() {
     assert!(Arc::ptr_eq(mesh(&parts[0]), mesh(&parts[1])));
     assert_eq!((color(&parts[0]), color(&parts[1])), (Rgb::new(1.0, 1.0, 1.0), Rgb::new(0.5, 0.0, 0.0)));
     assert_eq!(parts[1].transform.as_ref().unwrap().translation.x, 2.0);
-    let painted = objects("translate (1, 0, 0) (mesh { file = \"a.glb\", material = classic { color = rgb 0 1 0 } })");
+    let painted =
+        objects("translate (1, 0, 0) (mesh { file = \"a.glb\", material = classic { color = rgb 0 1 0 } })");
     assert!(painted.iter().all(|part| color(part) == Rgb::new(0.0, 1.0, 0.0)));
     assert_eq!(painted[1].transform.as_ref().unwrap().translation.x, 3.0);
 }
 
 #[test]
 fn a_file_that_is_used_twice_is_one_mesh() {
-    let three = objects("mesh { file = \"a.ply\" }, mesh { file = \"a.ply\" }, mesh { file = \"a.ply\", smooth = true }");
+    let three = objects(
+        "mesh { file = \"a.ply\" }, mesh { file = \"a.ply\" }, mesh { file = \"a.ply\", smooth = true }",
+    );
     assert!(Arc::ptr_eq(mesh(&three[0]), mesh(&three[1])));
     assert_eq!((mesh(&three[0]).normals().len(), mesh(&three[2]).normals().len()), (0, 4));
     assert_eq!(mesh(&three[2]).normals()[3], [0.0, 0.0, 1.0]);
@@ -62,7 +65,9 @@ fn lists_make_a_mesh() {
     let full = objects(&format!("triangles {{ {points}, {more} }}"));
     assert_eq!((mesh(&full[0]).normals()[3], mesh(&full[0]).uvs()[2]), ([0.0, 1.0, 0.0], [1.0, 1.0]));
     assert!(!mesh(&objects(&format!("triangles {{ {points}, smooth = true }}"))[0]).normals().is_empty());
-    assert!(mesh(&objects(&format!("triangles {{ {points}, {more}, smooth = false }}"))[0]).normals().is_empty());
+    assert!(
+        mesh(&objects(&format!("triangles {{ {points}, {more}, smooth = false }}"))[0]).normals().is_empty()
+    );
 }
 
 #[test]
@@ -71,8 +76,12 @@ fn what_makes_no_mesh_is_told() {
         let errors = errors(&format!("scene = {{ objects = [{objects}] }}"));
         assert!(errors.contains(expected), "{errors}");
     };
-    let triangles = |fields: &str| format!("triangles {{ points = [(0, 0, 0), (1, 0, 0), (0, 1, 0)], {fields} }}");
-    told(&triangles("faces = [[0, 1, 2], [0, 1, 3]]"), "corner 2 of face 1 is point 3, but there are 3 points, counted from 0");
+    let triangles =
+        |fields: &str| format!("triangles {{ points = [(0, 0, 0), (1, 0, 0), (0, 1, 0)], {fields} }}");
+    told(
+        &triangles("faces = [[0, 1, 2], [0, 1, 3]]"),
+        "corner 2 of face 1 is point 3, but there are 3 points, counted from 0",
+    );
     told(&triangles("faces = [[0, 1, 0.5]]"), "corner 2 of face 0 is point 0.5");
     told(&triangles("faces = [[0, 1, 2], [0, 1]]"), "face 1 has 2 corners, and a face has three or more");
     told(&triangles("faces = [[0, 1, 2]], normals = [up]"), "there are 1 normals for 3 vertices");
@@ -83,8 +92,14 @@ fn what_makes_no_mesh_is_told() {
     told("mesh { file = \"a.stl\" }", "\"a.stl\" cannot be read: line 3: it is damaged");
     told("mesh { file = 3 }", "file");
     told("mesh {}", "file");
-    told("difference (sphere {}) (group [cube {}, mesh { file = \"a.ply\" }])", "a mesh cannot be part of a solid yet");
-    told("union (translate up (mesh { file = \"a.ply\" })) (sphere {})", "a mesh cannot be part of a solid yet");
+    told(
+        "difference (sphere {}) (group [cube {}, mesh { file = \"a.ply\" }])",
+        "a mesh cannot be part of a solid yet",
+    );
+    told(
+        "union (translate up (mesh { file = \"a.ply\" })) (sphere {})",
+        "a mesh cannot be part of a solid yet",
+    );
 }
 
 #[test]

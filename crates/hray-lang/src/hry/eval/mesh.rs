@@ -170,7 +170,8 @@ impl Fields<'_, '_> {
         let smooth = self.smooth()?;
         let (points, points_span) = self.items("points")?;
         let (faces, faces_span) = self.items("faces")?;
-        let given = |fields: &mut Self, name: &str| fields.optional(name).map(|_| fields.items(name)).transpose();
+        let given =
+            |fields: &mut Self, name: &str| fields.optional(name).map(|_| fields.items(name)).transpose();
         let normals = given(&mut self, "normals")?;
         let uvs = given(&mut self, "uvs")?;
         let whole = self.span;
@@ -187,7 +188,9 @@ impl Fields<'_, '_> {
         let mut made: Vec<[u32; 3]> = Vec::with_capacity(triangles);
         let mut corners: Vec<u32> = Vec::new();
         for (number, face) in faces.items.iter().enumerate() {
-            let Value::List(face) = face else { return Err(internal(faces_span, "a face that is no list").into()) };
+            let Value::List(face) = face else {
+                return Err(internal(faces_span, "a face that is no list").into());
+            };
             corners.clear();
             for (corner, value) in face.items.iter().enumerate() {
                 machine.step(faces_span)?;
@@ -225,7 +228,9 @@ impl Fields<'_, '_> {
     fn items(&mut self, name: &str) -> Outcome<(Arc<ListValue>, Span)> {
         match self.value(name)? {
             (Value::List(list), span) => Ok((list, span)),
-            (other, span) => Err(internal(span, &format!("{} in the field `{name}`", other.describe())).into()),
+            (other, span) => {
+                Err(internal(span, &format!("{} in the field `{name}`", other.describe())).into())
+            }
         }
     }
 }
@@ -256,14 +261,21 @@ fn wrong_mesh(error: &hray_core::MeshError, span: Span) -> Box<Failure> {
 
 impl Machine<'_> {
     /// Vectors in single precision.
-    fn vectors<const N: usize>(&mut self, list: &ListValue, name: &str, span: Span) -> Outcome<Vec<[f32; N]>> {
+    fn vectors<const N: usize>(
+        &mut self,
+        list: &ListValue,
+        name: &str,
+        span: Span,
+    ) -> Outcome<Vec<[f32; N]>> {
         let mut vectors = Vec::with_capacity(list.items.len());
         for (number, item) in list.items.iter().enumerate() {
             self.step(span)?;
             let numbers: &[f64] = match item {
                 Value::Vec3(v) => v,
                 Value::Vec2(v) => v,
-                Value::Symbolic(_) => return Err(depends_on_hit(&format!("the field `{name}` of `triangles`"), span)),
+                Value::Symbolic(_) => {
+                    return Err(depends_on_hit(&format!("the field `{name}` of `triangles`"), span));
+                }
                 other => return Err(internal(span, &format!("{} in `{name}`", other.describe())).into()),
             };
             let vector = std::array::from_fn(|place| numbers.get(place).copied().unwrap_or(0.0) as f32);

@@ -303,8 +303,7 @@ pub(in crate::hry::types) struct Allowed {
 impl Allowed {
     pub(in crate::hry::types) fn of(field: &FieldSpec) -> Self {
         let hit = field.varies.then_some(Ty::HIT);
-        let plain =
-            |head: Head| Self {
+        let plain = |head: Head| Self {
             heads: Kind::of(&[head]),
             list: None,
             is_nested: false,
