@@ -14,6 +14,7 @@ const AFTER_HELP: &str = "\
 Examples:
   hray render scene.hry                    writes scene.png
   hray render scene.hry -o big.exr --size 3840x2160 --samples 16
+  hray render bunny.ply                    shows a mesh on a floor
   hray render orbit.hry --frames 0..47 -o orbit.gif
   hray check scene.hry                     says what is wrong with it
   hray scene.hry scene.ppm                 the classic form
@@ -48,7 +49,7 @@ pub(crate) enum Command {
     Info(InfoArgs),
     /// Lay out scenes in hry in the one common style
     Fmt(FmtArgs),
-    /// Turn a classic scene into one in hry that gives the same picture
+    /// Turn a classic scene into one in hry that gives the same picture, or a file of meshes into one that shows it
     Convert(ConvertArgs),
     /// Answer an editor: a language server on the standard input and output
     #[command(
@@ -107,7 +108,8 @@ pub(crate) struct CommonArgs {
 /// `hray render`.
 #[derive(Args, Debug)]
 pub(crate) struct RenderArgs {
-    /// The scene file, or - for the standard input
+    /// The scene file, or - for the standard input; or a file of meshes (ply, stl, obj, gltf, glb), which is shown
+    /// on a floor
     pub input: PathBuf,
     /// The picture, or - for the standard output [default: the input's name with .png, beside it]
     ///
@@ -184,7 +186,7 @@ pub(crate) struct CheckArgs {
 /// `hray info`.
 #[derive(Args, Debug)]
 pub(crate) struct InfoArgs {
-    /// The scene file, or - for the standard input
+    /// The scene file, or - for the standard input; or a file of meshes (ply, stl, obj, gltf, glb)
     pub input: PathBuf,
     /// Write JSON, for programs
     #[arg(long)]
@@ -215,7 +217,7 @@ pub(crate) struct FmtArgs {
 /// `hray convert`.
 #[derive(Args, Debug)]
 pub(crate) struct ConvertArgs {
-    /// The classic scene, or - for the standard input
+    /// The classic scene, or - for the standard input; or a file of meshes (ply, stl, obj, gltf, glb)
     #[arg(value_name = "OLD.hry")]
     pub input: PathBuf,
     /// The new scene, or - for the standard output, which is the default

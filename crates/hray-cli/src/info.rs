@@ -4,7 +4,9 @@ use crate::args::InfoArgs;
 use crate::console::Console;
 use crate::failure::Failure;
 use crate::summary::{counted, grouped};
-use hray::{CameraSummary, Error, Input, Language, LintLevels, Objects, SceneFile, Summary, WorstCase};
+use hray::{
+    CameraSummary, Error, Input, Language, LintLevels, Meshes, Objects, SceneFile, Summary, WorstCase,
+};
 use std::fmt::Write;
 
 /// Shows what is in a scene.
@@ -82,6 +84,9 @@ fn write_text(out: &mut String, summary: &Summary, file: &SceneFile) -> std::fmt
     if summary.functions > 0 {
         writeln!(out, "functions    {}", grouped(summary.functions as u64))?;
     }
+    if let Some(meshes) = &summary.meshes {
+        write_meshes(out, meshes)?;
+    }
     if let Some(bounds) = summary.sphere_bounds {
         writeln!(out, "spheres in   {} to {}", triple(bounds.min), triple(bounds.max))?;
     }
@@ -90,6 +95,26 @@ fn write_text(out: &mut String, summary: &Summary, file: &SceneFile) -> std::fmt
         0 => writeln!(out, "warnings     none"),
         n => writeln!(out, "warnings     {n} (`hray check` shows them)"),
     }
+}
+
+fn write_meshes(out: &mut String, meshes: &Meshes) -> std::fmt::Result {
+    let Meshes { triangles, placed_triangles, vertices, bytes, .. } = *meshes;
+    let placed = if placed_triangles == triangles {
+        String::new()
+    } else {
+        format!(" ({} where they are placed)", grouped(placed_triangles as u64))
+    };
+    let (count, triangles, vertices) =
+        (grouped(meshes.count as u64), grouped(triangles as u64), grouped(vertices as u64));
+    let mebibytes = bytes as f64 / f64::from(1 << 20);
+    writeln!(
+        out,
+        "meshes       {count}: {triangles} triangles{placed}, {vertices} vertices, {mebibytes:.1} MiB"
+    )?;
+    if let Some(bounds) = meshes.bounds {
+        writeln!(out, "meshes in    {} to {}", triple(bounds.min), triple(bounds.max))?;
+    }
+    Ok(())
 }
 
 /// The kinds of light, of which the last two are named only where they occur.
@@ -106,6 +131,11 @@ fn objects(objects: &Objects) -> String {
         0 => {}
         1 => kinds.push("1 box".to_owned()),
         n => kinds.push(format!("{} boxes", grouped(n as u64))),
+    }
+    match objects.meshes {
+        0 => {}
+        1 => kinds.push("1 mesh".to_owned()),
+        n => kinds.push(format!("{} meshes", grouped(n as u64))),
     }
     if objects.csg > 0 {
         kinds.push(format!("{} csg", grouped(objects.csg as u64)));

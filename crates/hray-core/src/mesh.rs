@@ -8,11 +8,11 @@ use std::fmt;
 /// interpolated for shading; u and v are those of the vertices, or else the weights of the second and third vertex.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Mesh {
-    positions: Vec<[f32; 3]>,
-    triangles: Vec<[u32; 3]>,
-    normals: Vec<[f32; 3]>,
-    uvs: Vec<[f32; 2]>,
-    colors: Vec<[f32; 3]>,
+    pub(crate) positions: Vec<[f32; 3]>,
+    pub(crate) triangles: Vec<[u32; 3]>,
+    pub(crate) normals: Vec<[f32; 3]>,
+    pub(crate) uvs: Vec<[f32; 2]>,
+    pub(crate) colors: Vec<[f32; 3]>,
 }
 
 /// Why parts do not make a mesh.

@@ -39,6 +39,13 @@ pub enum InputError {
         /// What is wrong with it.
         reason: String,
     },
+    /// It is no file of meshes that can be read.
+    Model {
+        /// The path as it was given.
+        path: PathBuf,
+        /// What is wrong with it, and where: a line, a byte or a place in a document.
+        reason: String,
+    },
     /// There is more to read than is accepted.
     TooLarge {
         /// The path as it was given; `-` is the standard input.
@@ -73,7 +80,7 @@ impl InputError {
             Self::Directory { .. } => "it is a directory".to_owned(),
             Self::NoDirectory { .. } => "it is no directory".to_owned(),
             Self::OutsideRoot { .. } => "it does not lie in the root folder".to_owned(),
-            Self::Image { reason, .. } => reason.clone(),
+            Self::Image { reason, .. } | Self::Model { reason, .. } => reason.clone(),
             Self::TooLarge { limit, .. } => {
                 format!("it is longer than {}, the most that is read", Bytes(*limit))
             }
@@ -111,7 +118,7 @@ impl fmt::Display for InputError {
                 Quoted(path),
                 Quoted(root)
             ),
-            Self::Image { path, reason } => {
+            Self::Image { path, reason } | Self::Model { path, reason } => {
                 write!(f, "cannot read {}: {reason}", Named(path, "the standard input"))
             }
             Self::TooLarge { path, limit } => write!(

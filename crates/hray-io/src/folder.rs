@@ -1,8 +1,8 @@
 //! Files inside one folder, and nothing outside of it.
 
 use crate::source::read_bounded;
-use crate::{InputError, MAX_IMAGE_BYTES, MAX_SOURCE_BYTES, decode_image};
-use hray_core::Image;
+use crate::{InputError, MAX_IMAGE_BYTES, MAX_MODEL_BYTES, MAX_SOURCE_BYTES, decode_image, decode_model};
+use hray_core::{Image, Model};
 use std::fs::{self, File};
 use std::io;
 use std::path::{Component, Path, PathBuf};
@@ -78,6 +78,23 @@ impl Folder {
     /// [`FolderError`]
     pub fn image(&self, path: &str) -> Result<Image, FolderError> {
         decode_image(&self.bytes(path, MAX_IMAGE_BYTES)?, Path::new(path)).map_err(FolderError::Input)
+    }
+
+    /// A file of meshes, see [`decode_model`], and what it names, which lies in this folder, too.
+    ///
+    /// # Errors
+    /// [`FolderError`]
+    pub fn model(&self, path: &str) -> Result<Model, FolderError> {
+        let companion = |written: &str| {
+            let path = beside(path, written).ok_or_else(|| OUTSIDE.to_owned())?;
+            self.bytes(&path, MAX_MODEL_BYTES).map_err(|error| match error {
+                FolderError::Missing => "there is no such file".to_owned(),
+                FolderError::Outside => OUTSIDE.to_owned(),
+                FolderError::Input(error) => error.reason(),
+            })
+        };
+        let bytes = self.bytes(path, MAX_MODEL_BYTES)?;
+        decode_model(&bytes, Path::new(path), &companion).map_err(FolderError::Input)
     }
 
     /// The paths of the files in the same folder as `path`, sorted; of a very large folder not all.
@@ -160,6 +177,25 @@ impl Folder {
             _ => FolderError::Input(InputError::from_io(PathBuf::from(path), error)),
         }
     }
+}
+
+const OUTSIDE: &str = "it lies outside the root folder";
+
+/// The path that `written` means in the file at `from`; none where it leads out of the folder.
+fn beside(from: &str, written: &str) -> Option<String> {
+    let mut parts: Vec<&str> = from.split('/').collect();
+    parts.pop();
+    for component in Path::new(written).components() {
+        match component {
+            Component::CurDir => {}
+            Component::Normal(part) => parts.push(part.to_str()?),
+            Component::ParentDir => {
+                parts.pop()?;
+            }
+            Component::RootDir | Component::Prefix(_) => return None,
+        }
+    }
+    Some(parts.join("/"))
 }
 
 #[cfg(test)]

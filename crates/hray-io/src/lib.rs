@@ -1,6 +1,7 @@
-//! Everything that touches a file: scenes, images and noise tables in, pictures and animations out.
+//! Everything that touches a file: scenes, images, meshes and noise tables in, pictures and animations out.
 //!
-//! Reading is bounded: [`read_source`], [`read_image`] and [`read_noise_tables`] stop at a stated size whatever the file,
+//! Reading is bounded: [`read_source`], [`read_image`], [`read_model`] and
+//! [`read_noise_tables`] stop at a stated size whatever the file,
 //! the pipe or the device behind it goes on to deliver. A [`Folder`] gives files inside of it and no others.
 //!
 //! Writing is split so that it can keep up with a parallel renderer. [`PictureFormat::encode`] is a pure
@@ -35,6 +36,7 @@ mod destination;
 mod error;
 mod folder;
 mod format;
+mod meshes;
 mod noise_tables;
 mod output;
 mod picture_writer;
@@ -49,6 +51,7 @@ pub use destination::{Destination, create_folder};
 pub use error::{InputError, OutputError};
 pub use folder::{Folder, FolderError};
 pub use format::{PictureFormat, UnknownFormat};
+pub use meshes::{Companions, MAX_MODEL_BYTES, decode_model, model_format, read_model};
 pub use noise_tables::{MAX_NOISE_TABLES_BYTES, TablesError, parse_noise_tables, read_noise_tables};
 pub use picture_writer::PictureWriter;
 pub use quoted::Quoted;

@@ -1,6 +1,6 @@
 //! What scenes read besides their own text: files in one folder.
 
-use crate::{Image, Input, InputError};
+use crate::{Image, Input, InputError, Model};
 use hray_io::{Folder, FolderError};
 use hray_lang::hry::assets::{AssetError, Assets};
 use std::collections::BTreeMap;
@@ -17,6 +17,8 @@ pub(crate) struct FolderAssets {
     names: Names,
     /// Images that were read already, by their paths.
     images: Mutex<BTreeMap<String, Arc<Image>>>,
+    /// Files of meshes, too.
+    models: Mutex<BTreeMap<String, Arc<Model>>>,
 }
 
 impl FolderAssets {
@@ -48,13 +50,16 @@ impl FolderAssets {
     }
 
     fn new(folder: Option<Folder>, names: Names) -> Self {
-        Self { folder, names, images: Mutex::default() }
+        Self { folder, names, images: Mutex::default(), models: Mutex::default() }
     }
 
-    /// The images that were read so far: the paths that lead to them from anywhere.
-    pub(crate) fn images_read(&self) -> Vec<PathBuf> {
+    /// The images and meshes that were read so far: the paths that lead to them from anywhere.
+    pub(crate) fn assets_read(&self) -> Vec<PathBuf> {
         let images = self.images.lock().unwrap_or_else(PoisonError::into_inner);
-        let full = |folder: &Folder| images.keys().map(|path| folder.full_path(path)).collect();
+        let models = self.models.lock().unwrap_or_else(PoisonError::into_inner);
+        let full = |folder: &Folder| {
+            images.keys().chain(models.keys()).map(|path| folder.full_path(path)).collect()
+        };
         self.folder.as_ref().map_or_else(Vec::new, full)
     }
 
@@ -80,6 +85,16 @@ impl Assets for FolderAssets {
         let mut images = self.images.lock().unwrap_or_else(PoisonError::into_inner);
         images.insert(path.to_owned(), image.clone());
         Ok(image)
+    }
+
+    fn model(&self, path: &str) -> Result<Arc<Model>, AssetError> {
+        if let Some(model) = self.models.lock().unwrap_or_else(PoisonError::into_inner).get(path) {
+            return Ok(model.clone());
+        }
+        let model = Arc::new(self.folder()?.model(path).map_err(unavailable)?);
+        let mut models = self.models.lock().unwrap_or_else(PoisonError::into_inner);
+        models.insert(path.to_owned(), model.clone());
+        Ok(model)
     }
 
     fn neighbours(&self, path: &str) -> Vec<String> {

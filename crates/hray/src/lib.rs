@@ -48,6 +48,7 @@ mod assets;
 mod error;
 mod findings;
 mod format;
+mod model_scene;
 mod options;
 mod picture;
 mod render;
@@ -58,23 +59,25 @@ mod work_folder;
 pub use error::{Error, LoadError};
 pub use findings::{Finding, FindingLabel, FindingPlace, FindingSuggestion, Findings};
 pub use format::{FormatErrors, Formatted, format_scene};
+pub use model_scene::scene_of_model;
 pub use options::{Options, OptionsError};
 pub use picture::Picture;
 pub use render::{render_frame, render_to, render_to_bytes, render_to_file, render_to_memory};
-pub use scene_file::{LoadOptions, Moments, SceneFile, load};
-pub use summary::{Bounds, CameraSummary, Materials, Objects, Summary, WorstCase};
+pub use scene_file::{LoadOptions, Moments, SceneFile, load, model_scene};
+pub use summary::{Bounds, CameraSummary, Materials, Meshes, Objects, Summary, WorstCase};
 pub use work_folder::{OpenTexts, WorkAssets, WorkFolder};
 
 pub use hray_core::{
     Background, Camera, Csg, CsgOperation, Cuboid, DAffine3, DMat3, DVec2, DVec3, Description,
     DescriptionError, Encoding, Field, Function, Image, Integrator, Light, MAX_DEPTH, MAX_PIXELS, MIN_DEPTH,
-    Material, NoiseTables, NoiseTexture, OrthographicCamera, PerspectiveCamera, Plane, Primitive, Resolution,
-    Rgb, Scene, Shape, Sphere, Texture, WindowCamera,
+    Material, Mesh, Model, ModelFormat, ModelMaterial, ModelPart, NoiseTables, NoiseTexture,
+    OrthographicCamera, PerspectiveCamera, Plane, Primitive, Resolution, Rgb, Scene, Shape, Sphere, Texture,
+    WindowCamera,
 };
 pub use hray_io::{
-    AnimationFormat, AnimationWriter, Destination, Input, InputError, MAX_FPS, MAX_SOURCE_BYTES, MIN_FPS,
-    OutputError, PictureFormat, Quoted, TablesError, UnknownFormat, create_folder, parse_noise_tables,
-    read_noise_tables, read_source, same_file, write_text,
+    AnimationFormat, AnimationWriter, Destination, Input, InputError, MAX_FPS, MAX_MODEL_BYTES,
+    MAX_SOURCE_BYTES, MIN_FPS, OutputError, PictureFormat, Quoted, TablesError, UnknownFormat, create_folder,
+    model_format, parse_noise_tables, read_model, read_noise_tables, read_source, same_file, write_text,
 };
 pub use hray_lang::Language;
 pub use hray_lang::classic::write as write_classic;

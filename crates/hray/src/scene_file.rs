@@ -1,7 +1,9 @@
 //! A scene file: its text, what it describes, and what there is to say about it.
 
 use crate::assets::FolderAssets;
+use crate::scene_of_model;
 use crate::{Description, Diagnostic, Error, Findings, Input, InputError, Limits, LintLevels, LoadError};
+use hray_lang::hry::assets::{AssetError, Assets as _};
 use hray_lang::hry::eval::Evaluator;
 use hray_lang::hry::{Program, Sources, types};
 use hray_lang::{Language, classic, decode, diagnostic, lint};
@@ -57,7 +59,13 @@ impl SceneFile {
     /// # Errors
     /// [`InputError`] where it cannot be read, or does not lie in the root folder that was asked for. What is wrong with
     /// its text is in the diagnostics.
+    ///
+    /// A file of meshes, by its extension, is a scene that shows it: see [`crate::scene_of_model`].
     pub fn read(input: &Input, options: &LoadOptions) -> Result<Self, InputError> {
+        if let Some(scene) = ModelScene::read(input, options)? {
+            let ModelScene { assets, path, text } = scene;
+            return Ok(Self::hry(&input.name(), &path, text.into(), assets, options));
+        }
         let bytes = hray_io::read_source(input)?;
         let (assets, path) = FolderAssets::of(input, options.root.as_deref())?;
         Ok(Self::understand(&input.name(), &path, bytes, assets, options))
@@ -201,7 +209,7 @@ impl SceneFile {
     /// moment needs are there once that was asked for.
     #[must_use]
     pub fn images(&self) -> Vec<PathBuf> {
-        self.checked.as_ref().map_or_else(Vec::new, |checked| checked.assets.images_read())
+        self.checked.as_ref().map_or_else(Vec::new, |checked| checked.assets.assets_read())
     }
 
     /// What the scene file describes; none where it has errors.
@@ -306,6 +314,38 @@ fn nothing_to_set(name: &str) -> Diagnostic {
     let message = format!("a classic scene has no definitions, so `{name}` cannot be set");
     Diagnostic::error("unknown-override", message, diagnostic::Span::at(0), "")
         .with_help("`hray convert` makes an hry scene of a classic one")
+}
+
+/// The text of the scene that a file of meshes is read as, by its extension; none where it is no such file.
+///
+/// # Errors
+/// [`InputError`] where it cannot be read, or is damaged.
+pub fn model_scene(input: &Input) -> Result<Option<String>, InputError> {
+    Ok(ModelScene::read(input, &LoadOptions::default())?.map(|scene| scene.text))
+}
+
+/// What a file of meshes is read as.
+struct ModelScene {
+    assets: FolderAssets,
+    path: String,
+    text: String,
+}
+
+impl ModelScene {
+    fn read(input: &Input, options: &LoadOptions) -> Result<Option<Self>, InputError> {
+        let Input::File(file) = input else { return Ok(None) };
+        if hray_io::model_format(file).is_none() {
+            return Ok(None);
+        }
+        let (assets, path) = FolderAssets::of(input, options.root.as_deref())?;
+        let name = path.rsplit('/').next().unwrap_or(&path);
+        let model = assets.model(&path).map_err(|error| match error {
+            AssetError::NotFound => InputError::Missing { path: file.clone() },
+            error => InputError::Model { path: file.clone(), reason: error.to_string() },
+        })?;
+        let text = scene_of_model(name, &model);
+        Ok(Some(Self { assets, path, text }))
+    }
 }
 
 /// Reads the scene in a file. Warnings are passed over in silence; [`SceneFile::read`] has them.

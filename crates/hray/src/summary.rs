@@ -2,7 +2,7 @@
 
 use crate::{
     Background, Camera, DMat3, DVec3, Description, Encoding, Field, Function, Integrator, Light, Material,
-    NoiseTexture, Primitive, Scene, Shape, Texture,
+    Mesh, NoiseTexture, Primitive, Scene, Shape, Texture,
 };
 use serde::Serialize;
 use std::collections::{BTreeMap, BTreeSet};
@@ -47,6 +47,8 @@ pub struct Summary {
     pub materials: Materials,
     /// Functions that are evaluated for every hit, or for every direction of the background.
     pub functions: usize,
+    /// The meshes that the objects are made of; none where there are none.
+    pub meshes: Option<Meshes>,
     /// The box around all spheres in the scene's list; none without spheres.
     pub sphere_bounds: Option<Bounds>,
     /// What a pixel can cost.
@@ -133,6 +135,47 @@ impl Objects {
     }
 }
 
+/// Meshes, each counted once however often it is placed, but for their box.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Meshes {
+    /// How many different ones.
+    pub count: usize,
+    /// Their triangles.
+    pub triangles: usize,
+    /// The triangles that can be hit: those of a mesh that is placed many times count each time.
+    pub placed_triangles: usize,
+    /// Their vertices.
+    pub vertices: usize,
+    /// The memory that they take, in bytes.
+    pub bytes: usize,
+    /// The box around all of them where they are placed; none where no triangle has finite coordinates.
+    pub bounds: Option<Bounds>,
+}
+
+impl Meshes {
+    fn of(primitives: &[Primitive]) -> Option<Self> {
+        let placed = primitives.iter().filter_map(|primitive| match &primitive.shape {
+            Shape::Mesh(mesh) => Some((mesh, primitive.transform.as_deref())),
+            _ => None,
+        });
+        let mut meshes: Vec<&Arc<Mesh>> = placed.clone().map(|(mesh, _)| mesh).collect();
+        let placed_triangles = meshes.iter().map(|mesh| mesh.triangles().len()).sum();
+        meshes.sort_unstable_by_key(|mesh| Arc::as_ptr(mesh));
+        meshes.dedup_by_key(|mesh| Arc::as_ptr(mesh));
+        let bounds = placed.filter_map(|(mesh, transform)| mesh.bounds_under(transform));
+        let bounds = bounds.reduce(|[min, max], [low, high]| [min.min(low), max.max(high)]);
+        let sum = |part: fn(&Mesh) -> usize| meshes.iter().map(|mesh| part(mesh)).sum();
+        (!meshes.is_empty()).then(|| Self {
+            count: meshes.len(),
+            triangles: sum(|mesh| mesh.triangles().len()),
+            placed_triangles,
+            vertices: sum(|mesh| mesh.positions().len()),
+            bytes: sum(Mesh::bytes),
+            bounds: bounds.map(|[min, max]| Bounds { min: min.to_array(), max: max.to_array() }),
+        })
+    }
+}
+
 /// Objects, and parts of solids, by material.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Materials {
@@ -207,6 +250,7 @@ impl Summary {
             spot_lights: lights(|light| matches!(light, Light::Spot { .. })),
             materials,
             functions: functions(scene),
+            meshes: Meshes::of(&scene.primitives),
             sphere_bounds: bounds(description),
             worst_case: WorstCase {
                 branches,

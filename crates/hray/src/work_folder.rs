@@ -2,7 +2,7 @@
 //! count for more than what is on the disk.
 
 use crate::assets::FolderAssets;
-use crate::{Image, InputError};
+use crate::{Image, InputError, Model};
 use hray_io::Folder;
 use hray_lang::hry::assets::{AssetError, Assets};
 use std::collections::BTreeMap;
@@ -71,6 +71,10 @@ impl Assets for WorkAssets<'_> {
 
     fn image(&self, path: &str) -> Result<Arc<Image>, AssetError> {
         self.folder.assets.image(path)
+    }
+
+    fn model(&self, path: &str) -> Result<Arc<Model>, AssetError> {
+        self.folder.assets.model(path)
     }
 
     fn neighbours(&self, path: &str) -> Vec<String> {

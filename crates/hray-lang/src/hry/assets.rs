@@ -1,6 +1,6 @@
-//! Where imported files and images come from.
+//! Where imported files, images and meshes come from.
 
-use hray_core::Image;
+use hray_core::{Image, Model};
 use std::fmt;
 use std::sync::Arc;
 
@@ -20,6 +20,15 @@ pub trait Assets {
     /// # Errors
     /// [`AssetError`] where there is none, or it is not to be had.
     fn image(&self, path: &str) -> Result<Arc<Image>, AssetError>;
+
+    /// The meshes in a file, with what that names itself; files may be large, so whoever answers keeps what was read.
+    ///
+    /// # Errors
+    /// [`AssetError`] where there is none, or it is not to be had.
+    fn model(&self, path: &str) -> Result<Arc<Model>, AssetError> {
+        let _ = path;
+        Err(AssetError::NotFound)
+    }
 
     /// Files whose names might have been meant, for "did you mean": those in the same folder.
     fn neighbours(&self, path: &str) -> Vec<String>;

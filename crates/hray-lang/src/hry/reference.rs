@@ -57,6 +57,8 @@ fn describe(constructor: &Constructor, text: &mut String) {
 fn takes(field: &FieldSpec) -> String {
     let kind = match field.kind {
         FieldType::Number => "Number",
+        FieldType::Bool => "Bool",
+        FieldType::Text => "Text",
         FieldType::Vec2 => "Vec2",
         FieldType::Vec3 => "Vec3",
         FieldType::Color => "Color",
@@ -64,6 +66,9 @@ fn takes(field: &FieldSpec) -> String {
         FieldType::Camera => "Camera",
         FieldType::Lights => "[Light]",
         FieldType::Shapes => "[Shape]",
+        FieldType::Points => "[Vec3]",
+        FieldType::Pairs => "[Vec2]",
+        FieldType::Faces => "[[Number]]",
         FieldType::Integrator => "Integrator",
         FieldType::Encoding => "Encoding",
         FieldType::Background => "Color or Vec3 -> Color",

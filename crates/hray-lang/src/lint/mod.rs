@@ -41,10 +41,16 @@ pub const LINTS: &[Lint] = &all::<{ CLASSIC_LINTS.len() + TYPES.len() + VALUES.l
 const TYPES: &[Lint] = crate::hry::types::LINTS;
 
 /// The lints of what evaluation finds in values.
-const VALUES: &[Lint] = &[lint(
-    "unusual-value",
-    "A field has a value that is worked out, and lies outside of what makes sense for it, such as a reflection above 1.",
-)];
+const VALUES: &[Lint] = &[
+    lint(
+        "unusual-value",
+        "A field has a value that is worked out, and lies outside of what makes sense for it, such as a reflection above 1.",
+    ),
+    lint(
+        "not-read",
+        "A file of meshes has something that is not taken over, such as images, or names a file that is not there.",
+    ),
+];
 
 const fn all<const N: usize>() -> [Lint; N] {
     let mut all = [lint("", ""); N];

@@ -22,6 +22,32 @@ impl Assets for Files {
         image.filter(|_| path.ends_with(".png")).map(Arc::new).ok_or(AssetError::NotFound)
     }
 
+    /// Two parts of one triangle each; a third part has none.
+    fn model(&self, path: &str) -> Result<Arc<hray_core::Model>, AssetError> {
+        use hray_core::{DAffine3, DVec3, Mesh, Model, ModelFormat, ModelMaterial, ModelPart, Rgb};
+        if path.ends_with(".stl") {
+            return Err(AssetError::Unreadable("line 3: it is damaged".to_owned()));
+        }
+        let points = vec![[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [1.0, 1.0, 0.0]];
+        let mesh = Arc::new(Mesh::new(points, vec![[0, 1, 2], [1, 3, 2]]).unwrap());
+        let part = |mesh: &Arc<Mesh>, x: f64| ModelPart {
+            name: String::new(),
+            mesh: mesh.clone(),
+            transform: (x != 0.0).then(|| DAffine3::from_translation(DVec3::new(x, 0.0, 0.0))),
+            material: (x != 0.0)
+                .then(|| Arc::new(ModelMaterial::new("red".to_owned(), Rgb::new(0.5, 0.0, 0.0)))),
+        };
+        let parts = vec![part(&mesh, 0.0), part(&mesh, 2.0), part(&Arc::default(), 3.0)];
+        let parts = if path.ends_with(".ply") { parts.into_iter().take(1).collect() } else { parts };
+        let notes = if path.ends_with(".obj") { vec!["curves are not read".to_owned()] } else { Vec::new() };
+        match path.rsplit_once('.') {
+            Some((_, "ply" | "obj" | "glb")) => {
+                Ok(Arc::new(Model { format: ModelFormat::Obj, parts, notes }))
+            }
+            _ => Err(AssetError::NotFound),
+        }
+    }
+
     fn neighbours(&self, _path: &str) -> Vec<String> {
         self.0.keys().map(|name| (*name).to_owned()).collect()
     }

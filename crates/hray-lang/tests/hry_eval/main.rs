@@ -7,6 +7,7 @@ mod corpus;
 mod errors;
 mod library;
 mod limits;
+mod meshes;
 mod scenes;
 mod textures;
 mod values;

@@ -204,6 +204,10 @@ impl<'m, 'a> Fields<'m, 'a> {
         Self { machine, constructor, given, span }
     }
 
+    pub(super) fn machine(&mut self) -> &mut Machine<'a> {
+        self.machine
+    }
+
     fn place(&self, name: &str) -> Outcome<(usize, &'static FieldSpec)> {
         let found = self.constructor.field(name);
         found.ok_or_else(|| internal(self.span, &format!("a field `{name}` that is not in the table")).into())
@@ -280,6 +284,8 @@ impl<'m, 'a> Fields<'m, 'a> {
             _ => None,
         };
         let shape = match self.constructor.name {
+            "mesh" => return self.mesh(material),
+            "triangles" => return self.triangles(material),
             "sphere" => {
                 Shape::Sphere(Sphere { radius: self.number("radius")?, center: self.vector("center")? })
             }

@@ -4,6 +4,7 @@ use super::code::{Binding, Capture, Code, CodeKind, FieldName, FunctionCode, Lam
 use super::compile::{Compiler, Symbols, internal};
 use super::failure::{Failure, Outcome};
 use super::limits::{Limits, Meter};
+use super::mesh::Prepared;
 use super::scalar::{assemble, parts, truth};
 use super::value::{
     Closure, ClosureGroup, FunctionKind, HitValue, Kind, RecordValue, Scalar, Symbol, TextValue, Value,
@@ -47,6 +48,8 @@ pub(super) struct Machine<'a> {
     pub(super) graph: Option<Builder>,
     pub(super) branches: u32,
     pub(super) images: BTreeMap<String, Arc<Image>>,
+    /// By their paths, and the normals that were asked for.
+    pub(super) models: BTreeMap<(String, Option<bool>), Arc<Prepared>>,
     /// Values of the defaults of constructors' fields.
     pub(super) defaults: BTreeMap<(&'static str, usize), Value>,
     pub(super) warnings: Vec<Diagnostic>,
@@ -84,6 +87,7 @@ impl<'a> Machine<'a> {
             graph: None,
             branches: 0,
             images: BTreeMap::new(),
+            models: BTreeMap::new(),
             defaults: BTreeMap::new(),
             warnings: Vec::new(),
             time: 0.0,

@@ -16,6 +16,7 @@ mod failure;
 mod limits;
 mod lists;
 mod machine;
+mod mesh;
 mod natives;
 mod order;
 mod patterns;

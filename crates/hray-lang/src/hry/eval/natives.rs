@@ -2,6 +2,7 @@
 
 use super::compile::internal;
 use super::failure::{Failure, Outcome};
+use super::limits::Charge;
 use super::machine::{Machine, depends_on_hit};
 use super::scalar::{assemble, parts};
 use super::value::{HitValue, Kind, RecordValue, Scalar, ShapeNode, ShapeValue, Symbol, Value};
@@ -9,7 +10,7 @@ use crate::diagnostic::{Diagnostic, Span};
 use crate::hry::ast::BinaryOperator;
 use crate::hry::library::Native;
 use crate::hry::program::missing_asset;
-use hray_core::CsgOperation;
+use hray_core::{CsgOperation, Shape};
 use hray_expr::{Binary, Block, NodeId, NoiseKind, Unary};
 use std::fmt::Write as _;
 use std::sync::Arc;
@@ -279,17 +280,22 @@ impl Machine<'_> {
         Ok(results.into_iter().map(|node| self.scalar(node)).collect())
     }
 
-    fn image(&mut self, written: &str, span: Span) -> Outcome<Value> {
+    /// The path from the root that a text means at a place.
+    pub(super) fn asset_path(&self, written: &str, span: Span) -> Outcome<String> {
         // The folder is that of the file in which the call stands.
         let from = self.program.sources.file(span.start).map_or("", |file| &file.path);
-        let Some(path) = crate::hry::assets::resolve(from, written) else {
+        crate::hry::assets::resolve(from, written).ok_or_else(|| {
             let message = format!("{written:?} leads out of the root folder");
-            return Err(Failure::new(
+            Failure::new(
                 Diagnostic::error("import-outside", message, span, "not inside the root folder").with_help(
                     "paths are written with slashes from the folder of the file; `--root FOLDER` widens the root",
                 ),
-            ));
-        };
+            )
+        })
+    }
+
+    fn image(&mut self, written: &str, span: Span) -> Outcome<Value> {
+        let path = self.asset_path(written, span)?;
         if let Some(image) = self.images.get(&path) {
             return Ok(Value::Image(image.clone()));
         }
@@ -434,11 +440,29 @@ impl Machine<'_> {
         let (Value::Shape(a), Value::Shape(b)) = (a, b) else {
             return Err(internal(span, "a solid of something else than shapes").into());
         };
+        if a.has_mesh || b.has_mesh {
+            let message = "a mesh cannot be part of a solid yet";
+            let error = Diagnostic::error("mesh-in-solid", message, span, "a mesh is in one of the two");
+            return Err(Failure::new(error.with_help(
+                "`group` puts shapes together without joining them; only spheres, boxes, planes and what is made of \
+                 them have an inside",
+            )));
+        }
         let nesting = a.nesting.max(b.nesting) + 1;
         Self::shape(ShapeNode::Csg { operation, operands: [a.clone(), b.clone()] }, nesting, span)
     }
 
     pub(super) fn shape(node: ShapeNode, nesting: u32, span: Span) -> Outcome<Value> {
+        Self::charged_shape(node, nesting, None, span)
+    }
+
+    /// A shape that holds so many bytes of its own.
+    pub(super) fn charged_shape(
+        node: ShapeNode,
+        nesting: u32,
+        charge: Option<Charge>,
+        span: Span,
+    ) -> Outcome<Value> {
         if nesting > DEEPEST_SHAPE {
             let message = format!("shapes are nested more than {DEEPEST_SHAPE} deep");
             return Err(Failure::new(
@@ -447,7 +471,15 @@ impl Machine<'_> {
                 ),
             ));
         }
-        Ok(Value::Shape(Arc::new(ShapeValue { node, nesting })))
+        let has_mesh = match &node {
+            ShapeNode::Leaf { shape, .. } => matches!(shape, Shape::Mesh(_)),
+            ShapeNode::Csg { .. } => false,
+            ShapeNode::Group(list) => {
+                list.items.iter().any(|item| matches!(item, Value::Shape(shape) if shape.has_mesh))
+            }
+            ShapeNode::Placed { shape, .. } | ShapeNode::Painted { shape, .. } => shape.has_mesh,
+        };
+        Ok(Value::Shape(Arc::new(ShapeValue { node, nesting, has_mesh, _charge: charge })))
     }
 
     /// A hit as a moved function sees it: taken back by the inverse of the move.

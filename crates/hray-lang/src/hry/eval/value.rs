@@ -159,6 +159,10 @@ pub(super) struct ShapeValue {
     pub(super) node: ShapeNode,
     /// How deep shapes nest in it.
     pub(super) nesting: u32,
+    /// Whether there is a mesh in it.
+    pub(super) has_mesh: bool,
+    /// The bytes of a mesh that is its own.
+    pub(super) _charge: Option<Charge>,
 }
 
 #[derive(Debug)]

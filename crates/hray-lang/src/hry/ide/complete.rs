@@ -20,6 +20,9 @@ const KEYWORDS: &[&str] = &["let", "in", "if", "then", "else", "match", "and", "
 const IMAGES: &[&str] =
     &["png", "jpg", "jpeg", "bmp", "tif", "tiff", "tga", "qoi", "ppm", "ff", "gif", "webp", "hdr", "exr"];
 
+/// The extensions of files of meshes, in small letters.
+const MODELS: &[&str] = &["ply", "stl", "obj", "gltf", "glb"];
+
 /// Something that may be written at a place.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Suggestion {
@@ -115,6 +118,7 @@ impl Analysis {
             let kind = match (extension.as_deref(), of) {
                 (None, _) => SuggestionKind::Folder,
                 (Some("hry"), PathOf::Module) => SuggestionKind::File,
+                (Some(extension), PathOf::Model) if MODELS.contains(&extension) => SuggestionKind::File,
                 (Some(extension), PathOf::Image) if IMAGES.contains(&extension) => SuggestionKind::File,
                 _ => return None,
             };

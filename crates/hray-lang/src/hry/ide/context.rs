@@ -32,6 +32,8 @@ pub(super) enum PathOf {
     Module,
     /// An image.
     Image,
+    /// A file of meshes.
+    Model,
 }
 
 /// The token at an offset: of two that meet there the one before, unless that is white space.
@@ -81,6 +83,10 @@ fn text(token: &SyntaxToken, span: Span, offset: usize) -> Context {
     for parent in parents {
         match parent.kind() {
             SyntaxKind::Import => return Context::Path(inner, PathOf::Module),
+            SyntaxKind::FieldValue => {
+                let named = parent.first_token().is_some_and(|first| first.text() == "file");
+                return if named { Context::Path(inner, PathOf::Model) } else { Context::Nothing };
+            }
             SyntaxKind::ApplyExpr => {
                 let called = parent.first_token().is_some_and(|first| first.text() == "image");
                 return if called { Context::Path(inner, PathOf::Image) } else { Context::Nothing };

@@ -112,6 +112,8 @@ fn pi(number: f64) -> String {
 pub(super) fn field_type(field: &FieldSpec) -> String {
     let plain = match field.kind {
         FieldType::Number => "Number",
+        FieldType::Bool => "Bool",
+        FieldType::Text => "Text",
         FieldType::Vec2 => "Vec2",
         FieldType::Vec3 => "Vec3",
         FieldType::Color => "Color or Number",
@@ -119,6 +121,9 @@ pub(super) fn field_type(field: &FieldSpec) -> String {
         FieldType::Camera => "Camera",
         FieldType::Lights => "[Light]",
         FieldType::Shapes => "[Shape]",
+        FieldType::Points => "[Vec3]",
+        FieldType::Pairs => "[Vec2]",
+        FieldType::Faces => "[[Number]]",
         FieldType::Integrator => "Integrator",
         FieldType::Encoding => "Encoding",
         FieldType::Background => "Color, Number or Vec3 -> Color",

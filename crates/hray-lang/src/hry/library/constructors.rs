@@ -165,6 +165,60 @@ pub const CONSTRUCTORS: &[Constructor] = &[
         ],
     },
     Constructor {
+        name: "mesh",
+        makes: Makes::Shape,
+        doc: "The triangles in a file: PLY, STL, OBJ, glTF 2.0 or GLB. A file of several parts gives all of them, each in \
+              its place, with its own colour where the file says one.",
+        example: "mesh { file = \"bunny.ply\", smooth = true }",
+        fields: &[
+            required("file", T::Text, "The file, written as for `image`: with slashes, from the folder of the scene."),
+            with_default(
+                "smooth",
+                T::Bool,
+                "",
+                "`true` makes a surface without normals look round, except at edges sharper than 40deg; `false` leaves \
+                 normals out, so that every triangle is flat. Where it is left out, the file decides.",
+            ),
+            with_default(
+                "material",
+                T::Material,
+                "",
+                "What it is made of, whatever the file says. Where it is left out, the file's colours are used, and where it \
+                 has none, `paint` gives a material.",
+            ),
+        ],
+    },
+    Constructor {
+        name: "triangles",
+        makes: Makes::Shape,
+        doc: "A surface of flat faces between points. Seen from outside, the corners of a face go round counterclockwise. \
+              Faces of more than three corners are cut into triangles around their first corner.",
+        example: "triangles { points = [(-1, 0, 0), (1, 0, 0), (1, 1, 0), (-1, 1, 0)], faces = [[0, 1, 2, 3]] }",
+        fields: &[
+            required("points", T::Points, "The points, kept in single precision.").unit(UNITS),
+            required(
+                "faces",
+                T::Faces,
+                "For each face the numbers of its corners, three or more, by their places in `points`, counted from 0.",
+            ),
+            with_default(
+                "normals",
+                T::Points,
+                "",
+                "For each point a direction at right angles to the surface, of any length; between points they are \
+                 blended, so that the surface looks round.",
+            ),
+            with_default("uvs", T::Pairs, "", "For each point the `uv` that a function of the hit sees there."),
+            with_default(
+                "smooth",
+                T::Bool,
+                "",
+                "`true` works normals out where none are given; edges sharper than 40deg stay sharp.",
+            ),
+            MATERIAL,
+        ],
+    },
+    Constructor {
         name: "classic",
         makes: Makes::Material,
         doc: "The material of 2005: a matte colour, a mirror, a highlight and glass, in any mixture. Every field may \

@@ -25,6 +25,10 @@ pub struct FieldSpec {
 pub enum FieldType {
     /// A number.
     Number,
+    /// A truth value.
+    Bool,
+    /// A text.
+    Text,
     /// A vector of two.
     Vec2,
     /// A vector of three.
@@ -39,6 +43,12 @@ pub enum FieldType {
     Lights,
     /// A list of shapes.
     Shapes,
+    /// A list of vectors of three.
+    Points,
+    /// A list of vectors of two.
+    Pairs,
+    /// A list of lists of numbers.
+    Faces,
     /// How light is followed.
     Integrator,
     /// How colours are written to a picture.

@@ -106,7 +106,7 @@ impl<'p> Infer<'p> {
         let why = Why::Field { constructor, field, name: value.name.span };
         let allowed = Allowed::of(field);
         if let Some(of) = allowed.list {
-            let list = self.types.store.list(of);
+            let list = self.list_of(of, allowed);
             return self.expr(expr, Some((list, why)));
         }
         if let (None, Some(head)) = (allowed.from, allowed.heads.only()) {

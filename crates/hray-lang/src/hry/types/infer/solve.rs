@@ -242,12 +242,18 @@ impl Infer<'_> {
         self.missing_fields(constructor, &given, origin.span, origin.via);
     }
 
+    /// The type of the lists that a field takes.
+    pub(super) fn list_of(&mut self, of: Ty, allowed: Allowed) -> Ty {
+        let list = self.types.store.list(of);
+        if allowed.is_nested { self.types.store.list(list) } else { list }
+    }
+
     /// A value that a field of a constructor takes.
     pub(super) fn slot(&mut self, value: Ty, field: &'static FieldSpec) -> Decided {
         let allowed = Allowed::of(field);
         let wrong = |_: Clash| Failure::Slot;
         if let Some(of) = allowed.list {
-            let list = self.types.store.list(of);
+            let list = self.list_of(of, allowed);
             self.types.store.unify(value, list).map_err(wrong)?;
             return Ok(true);
         }
@@ -286,6 +292,8 @@ pub(in crate::hry::types) struct Allowed {
     pub(in crate::hry::types) heads: Kind,
     /// A list of those.
     pub(in crate::hry::types) list: Option<Ty>,
+    /// Whether it is a list of such lists.
+    pub(in crate::hry::types) is_nested: bool,
     /// What a function takes, where functions are allowed.
     pub(in crate::hry::types) from: Option<Ty>,
     /// Whether nothing but a function is allowed.
@@ -295,16 +303,24 @@ pub(in crate::hry::types) struct Allowed {
 impl Allowed {
     pub(in crate::hry::types) fn of(field: &FieldSpec) -> Self {
         let hit = field.varies.then_some(Ty::HIT);
-        let plain =
-            |head: Head| Self { heads: Kind::of(&[head]), list: None, from: hit, only_functions: false };
+        let plain = |head: Head| Self {
+            heads: Kind::of(&[head]),
+            list: None,
+            is_nested: false,
+            from: hit,
+            only_functions: false,
+        };
         let list = |head: Head| Self {
             heads: Kind::of(&[Head::List]),
             list: Some(Ty::alone(head)),
+            is_nested: false,
             from: None,
             only_functions: false,
         };
         match field.kind {
             FieldType::Number => plain(Head::Number),
+            FieldType::Bool => plain(Head::Bool),
+            FieldType::Text => plain(Head::Text),
             FieldType::Vec2 => plain(Head::Vec2),
             FieldType::Vec3 => plain(Head::Vec3),
             FieldType::Material => plain(Head::Material),
@@ -318,6 +334,9 @@ impl Allowed {
             FieldType::Height => Self { from: Some(Ty::HIT), only_functions: true, ..plain(Head::Number) },
             FieldType::Lights => list(Head::Light),
             FieldType::Shapes => list(Head::Shape),
+            FieldType::Points => list(Head::Vec3),
+            FieldType::Pairs => list(Head::Vec2),
+            FieldType::Faces => Self { is_nested: true, ..list(Head::Number) },
         }
     }
 
@@ -330,6 +349,8 @@ impl Allowed {
     pub(in crate::hry::types) fn written(field: &FieldSpec) -> String {
         let plain = match field.kind {
             FieldType::Number => "Number",
+            FieldType::Bool => "Bool",
+            FieldType::Text => "Text",
             FieldType::Vec2 => "Vec2",
             FieldType::Vec3 => "Vec3",
             FieldType::Color => "Color",
@@ -341,6 +362,9 @@ impl Allowed {
             FieldType::Height => return "Hit -> Number".into(),
             FieldType::Lights => return "[Light]".into(),
             FieldType::Shapes => return "[Shape]".into(),
+            FieldType::Points => return "[Vec3]".into(),
+            FieldType::Pairs => return "[Vec2]".into(),
+            FieldType::Faces => return "[[Number]]".into(),
         };
         if field.varies { format!("{plain} or Hit -> {plain}") } else { plain.into() }
     }

@@ -271,7 +271,13 @@ fn record_difference(
 
 /// What the elements of a list in a field are.
 fn plural(field: &str) -> &'static str {
-    if field == "lights" { "lights" } else { "shapes" }
+    match field {
+        "lights" => "lights",
+        "points" | "normals" => "vectors of three",
+        "uvs" => "vectors of two",
+        "faces" => "lists of numbers, the corners of each face",
+        _ => "shapes",
+    }
 }
 
 /// What a field takes, in words.
@@ -279,6 +285,8 @@ pub(super) fn field_words(field: &crate::hry::library::FieldSpec) -> String {
     use crate::hry::library::FieldType as T;
     let plain = match field.kind {
         T::Number => "a number",
+        T::Bool => "a truth value",
+        T::Text => "a text",
         T::Vec2 => "a vector of two",
         T::Vec3 => "a vector of three",
         T::Color => "a colour",
@@ -286,6 +294,9 @@ pub(super) fn field_words(field: &crate::hry::library::FieldSpec) -> String {
         T::Camera => "a camera",
         T::Lights => "a list of lights",
         T::Shapes => "a list of shapes",
+        T::Points => "a list of vectors of three",
+        T::Pairs => "a list of vectors of two",
+        T::Faces => "a list of lists of numbers",
         T::Integrator => "an integrator",
         T::Encoding => "an encoding",
         T::Background => "a colour, or a function from a direction to a colour",
