@@ -12,6 +12,7 @@ use crate::hry::program::missing_asset;
 use glam::DAffine3;
 use hray_core::{Mesh, Model, ModelMaterial, ModelPart, Rgb, Shape};
 use std::collections::BTreeMap;
+use std::collections::btree_map::Entry;
 use std::sync::Arc;
 
 /// Where normals are worked out, edges between triangles that are turned by more than this against each other stay sharp:
@@ -56,7 +57,7 @@ impl Machine<'_> {
         let mut meshes: BTreeMap<*const Mesh, Arc<Mesh>> = BTreeMap::new();
         let mut materials: BTreeMap<*const ModelMaterial, Arc<MaterialValue>> = BTreeMap::new();
         let mut parts = Vec::new();
-        // Half of it before anything is made.
+        // Before anything is made of it.
         let mut charge = self.meter.charge(model.bytes() as u64);
         self.check_memory(span)?;
         let filled = |part: &&ModelPart| !part.mesh.triangles().is_empty();
@@ -65,13 +66,10 @@ impl Machine<'_> {
             let made = meshes.entry(Arc::as_ptr(mesh)).or_insert_with(|| with_normals(mesh, smooth)).clone();
             let material = match material {
                 None => None,
-                Some(material) => {
-                    let key = Arc::as_ptr(material);
-                    if !materials.contains_key(&key) {
-                        materials.insert(key, Arc::new(material_of(material, span)?));
-                    }
-                    materials.get(&key).cloned()
-                }
+                Some(material) => Some(match materials.entry(Arc::as_ptr(material)) {
+                    Entry::Occupied(known) => known.get().clone(),
+                    Entry::Vacant(place) => place.insert(Arc::new(material_of(material, span)?)).clone(),
+                }),
             };
             parts.push(PreparedPart { mesh: made, transform: transform.map(Arc::new), material });
         }
