@@ -57,9 +57,8 @@ impl FolderAssets {
     pub(crate) fn assets_read(&self) -> Vec<PathBuf> {
         let images = self.images.lock().unwrap_or_else(PoisonError::into_inner);
         let models = self.models.lock().unwrap_or_else(PoisonError::into_inner);
-        let full = |folder: &Folder| {
-            images.keys().chain(models.keys()).map(|path| folder.full_path(path)).collect()
-        };
+        let full =
+            |folder: &Folder| images.keys().chain(models.keys()).map(|path| folder.full_path(path)).collect();
         self.folder.as_ref().map_or_else(Vec::new, full)
     }
 
