@@ -118,7 +118,8 @@ pub(crate) struct RenderArgs {
     /// folder is made where it is missing); a .gif, .apng or .webp without it holds the whole animation.
     #[arg(short, long)]
     pub output: Option<PathBuf>,
-    /// The size of the picture, instead of the scene's; the camera's window stays
+    /// The size of the picture, instead of the scene's; a camera that is a window (every classic one) keeps its shape, others see
+    /// more or less
     #[arg(long, value_name = "WxH", allow_hyphen_values = true, value_parser = values::size)]
     pub size: Option<Resolution>,
     /// How many times a ray may be reflected or refracted, -1 to 10000, instead of the scene's number

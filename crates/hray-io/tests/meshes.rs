@@ -1,5 +1,7 @@
 //! Files of meshes: what is read of each format, and what is said of bad ones.
 
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, reason = "tests may fail loudly")]
+
 use hray_core::{Mesh, Model, Rgb};
 use hray_io::{Folder, FolderError, decode_model, model_format, read_model};
 use proptest::prelude::*;

@@ -150,7 +150,7 @@ mod tests {
         assert_eq!((mesh.positions().len(), mesh.normals().len()), (24, 24));
         let forward = (camera.to - camera.from).normalize();
         let right = forward.cross(DVec3::Y).normalize();
-        let tangent = (camera.fov / 2.0).tan();
+        let tangent = libm::tan(camera.fov / 2.0);
         let mut most = 0.0f64;
         for position in mesh.positions() {
             let p = DVec3::from(position.map(f64::from)) - camera.from;

@@ -49,14 +49,15 @@ impl Options {
         Ok(Settings { resolution, region, max_depth, samples, threads: self.threads })
     }
 
-    /// Whether these options give the picture another shape than the scene's, so that it is stretched. The
-    /// shape is the same where a side is off by less than the pixel that rounding may cost.
+    /// Whether these options give the picture another shape than the scene's, so that it is stretched: only a camera that is
+    /// a window has a shape of its own, the others see more or less. The shape is the same where a side is off by less than the pixel that rounding may cost.
     #[must_use]
     pub fn changes_aspect(&self, description: &Description) -> bool {
         let [(w, h), (scene_w, scene_h)] =
             [self.size.unwrap_or(description.resolution), description.resolution]
                 .map(|size| (u64::from(size.width()), u64::from(size.height())));
-        (w * scene_h).abs_diff(h * scene_w) >= scene_w.max(scene_h)
+        matches!(description.scene.camera, hray_core::Camera::Window(_))
+            && (w * scene_h).abs_diff(h * scene_w) >= scene_w.max(scene_h)
     }
 }
 
