@@ -1,6 +1,6 @@
 //! A scene around a file of meshes, as hry text: something to look at it with, and to go on from.
 
-use crate::{DVec3, Model, ModelFormat};
+use crate::{DVec3, Formatted, Model, ModelFormat};
 use std::fmt::Write;
 
 /// Angle from the lower to the upper edge of the picture, in degrees.
@@ -59,7 +59,10 @@ pub fn scene_of_model(file: &str, model: &Model) -> String {
         vector(view.from, 5),
         vector(view.to, 5),
     );
-    text
+    match crate::format_scene("model.hry", text.as_bytes()) {
+        Formatted::Text(text) => text,
+        _ => text,
+    }
 }
 
 /// Where a model is seen from.
