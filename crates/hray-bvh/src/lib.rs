@@ -21,5 +21,5 @@ pub use bounds::Bounds;
 pub use build::{BuildOptions, Quality};
 pub use mesh::{Hit, MeshError, TriangleMesh};
 pub use packet::{AnyLeaves, ClosestLeaves, MOST_RAYS, Packet, PacketStack};
-pub use ray::Ray;
+pub use ray::{Ray, SLACK};
 pub use tree::{Leaves, Stack, Tree};

@@ -10,7 +10,7 @@ use fearless_simd::prelude::*;
 /// the weights move the point that a ray meets by 6 e times 9 times the sheared triangle's size, up to 4 A: 216 e A. The
 /// distance of that is rounded a few times, 10 e A, and the distance of a box's face as well, 5 e A. Together that is less than
 /// 256 e A.
-pub(crate) const SLACK: f32 = 1.0 / (1u32 << 16) as f32;
+pub const SLACK: f32 = 1.0 / (1u32 << 16) as f32;
 
 /// Components of a direction are not taken to be less than this share of the greatest one: their reciprocals stay finite.
 pub(crate) const FLATTEST: f32 = 1e-18;

@@ -181,7 +181,8 @@ impl Accelerated {
         let mut leaves = Search { items: &self.items, geometry, rays, nothing, walk, nearest: *nearest };
         match narrowed {
             Some(mut narrowed) => {
-                self.tree.closest_packet(simd, &mut narrowed, u32::MAX, &mut stack, &mut leaves);
+                let all = (1 << Lanes::<S>::LEN) - 1;
+                self.tree.closest_packet(simd, &mut narrowed, all, &mut stack, &mut leaves);
             }
             None => leaves.test(simd, 0..self.items.len()),
         }

@@ -3,7 +3,7 @@
 
 use super::solid::Ray;
 use fearless_simd::prelude::*;
-use hray_bvh::{BuildOptions, MeshError, Stack, TriangleMesh};
+use hray_bvh::{BuildOptions, MeshError, SLACK, Stack, TriangleMesh};
 use hray_core::{DVec3, Mesh};
 use std::sync::Arc;
 
@@ -52,7 +52,10 @@ impl PreparedMesh {
         !self.mesh.normals().is_empty()
     }
 
-    /// The nearest hit between two distances: how far it is, and which triangle.
+    /// The nearest hit between two distances: how far it is, and which triangle. It may also be a little farther.
+    ///
+    /// Whether a hit counts is decided by its distance in double precision. So that the same hits are compared in
+    /// whatever order things are looked at, none may be left out because in single precision it is beyond `far`.
     #[inline(always)]
     pub(super) fn hit<S: Simd>(
         &self,
@@ -61,7 +64,10 @@ impl PreparedMesh {
         ends: [f64; 2],
         stack: &mut Stack,
     ) -> Option<(f64, u32)> {
-        let hit = self.tree.closest(simd, &self.narrowed(simd, ray, ends), stack)?;
+        let [near, far] = ends;
+        let greatest = f64::from(self.tree.reach()) + ray.origin.abs().max_element();
+        let far = far + f64::from(SLACK) * greatest / ray.direction.abs().max_element();
+        let hit = self.tree.closest(simd, &self.narrowed(simd, ray, [near, far]), stack)?;
         let [a, b, c] = self.corners(hit.triangle);
         let [v, w] = hit.weights.map(f64::from);
         // The same point in double precision: distances to other things are compared with this.

@@ -57,11 +57,33 @@ fn the_last_of_many_in_one_place_is_seen() {
     for copies in [3, 40] {
         let light = Light::Ambient { intensity: gray(1.0) };
         let shades = (0..copies).map(|i| matte(f64::from(i) / 100.0));
-        let primitives = shades.map(|shade| of(sphere(DVec3::ZERO, 1.0), &shade)).collect();
-        let found = colors(&description(32, primitives, vec![light]));
-        let expected = f64::from(copies - 1) / 100.0;
-        assert!(found.iter().all(|c| *c == NOTHING || c.r == expected), "{copies}");
+        for shape in [sphere(DVec3::ZERO, 1.0), ball(DVec3::ZERO, 1.0, 3, false)] {
+            let primitives = shades.clone().map(|shade| of(shape.clone(), &shade)).collect();
+            let found = colors(&description(64, primitives, vec![light]));
+            let expected = f64::from(copies - 1) / 100.0;
+            let others = found.iter().filter(|c| **c != NOTHING && c.r != expected).count();
+            assert_eq!(others, 0, "{copies}");
+        }
     }
+}
+
+/// Also where a tree comes to the last one last, because something of the others is nearer to the viewer.
+#[test]
+fn the_last_of_many_meshes_in_one_place_is_seen() {
+    let Shape::Mesh(ball) = ball(DVec3::ZERO, 1.0, 4, false) else { panic!() };
+    let copies = 40;
+    let copy = |i: u8| {
+        let mut positions = ball.positions().to_vec();
+        let mut triangles = ball.triangles().to_vec();
+        let aside = [2.0, 2.0, 2.0 - f32::from(i) * 0.02];
+        triangles.push([0, 1, 2].map(|corner| positions.len() as u32 + corner));
+        positions.extend([aside, [2.1, 2.0, aside[2]], [2.0, 2.1, aside[2]]]);
+        of(Shape::Mesh(Arc::new(Mesh::new(positions, triangles).unwrap())), &matte(f64::from(i) / 100.0))
+    };
+    let light = Light::Ambient { intensity: gray(1.0) };
+    let found = colors(&description(64, (0..copies).map(copy).collect(), vec![light]));
+    let expected = f64::from(copies - 1) / 100.0;
+    assert_eq!(found.iter().filter(|c| **c != NOTHING && c.r != expected).count(), 0);
 }
 
 /// Moved away by a million of its sizes together with the camera, a scene is the same but for the rounding of
