@@ -1,5 +1,6 @@
 //! Building a tree from the top down by the surface area heuristic over bins (Wald, *On Fast Construction of SAH-based Bounding
-//! Volume Hierarchies*, 2007): a set is cut in two until there are eight, each time the one with the greatest surface.
+//! Volume Hierarchies*, 2007): a large set is cut in two until there are eight, each time the one with the greatest surface; a
+//! small one is cut down to its leaves, and what comes of that is made a tree of eight ([`Collapse`]).
 //!
 //! What is cut where depends on the boxes alone; threads build disjoint parts, which are put together in order.
 
@@ -8,23 +9,6 @@ use crate::collapse::{Binary, Collapse};
 use crate::tree::{Child, MOST_UNITS, Node, Tree, WIDTH};
 use fearless_simd::{Level, dispatch, f32x4, prelude::*};
 use rayon::prelude::*;
-
-/// How much care a tree is built with.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum Quality {
-    /// Bins over the middles of boxes.
-    #[default]
-    Medium,
-}
-
-/// How to build.
-#[derive(Clone, Copy, Debug, Default)]
-#[non_exhaustive]
-pub struct BuildOptions {
-    /// How much care to take.
-    pub quality: Quality,
-}
 
 /// A thing to be sorted into the tree: half a cache line, read as two vectors.
 #[repr(C, align(32))]
@@ -183,105 +167,95 @@ impl<S: Store> Part<S> {
     }
 }
 
-pub(crate) struct Builder {
-    _options: BuildOptions,
+/// Builds a tree, and fills a store with what is in its leaves.
+pub(crate) fn build<S: Store>(mut primitives: Vec<Primitive>, store: S) -> (Tree, S) {
+    let extent = extent(&primitives);
+    let bounds = extent.bounds();
+    let mut tree = Tree { nodes: Vec::new(), root: None, bounds, reach: bounds.reach(), stack: 1 };
+    let mut all = store.empty();
+    if primitives.is_empty() {
+        return (tree, all);
+    }
+    let set = Set { start: 0, end: primitives.len(), extent, is_leaf: false };
+    let whole = part(&mut primitives, set, &store, 0);
+    drop(primitives);
+    let (nodes, units) = whole.len();
+    tree.nodes.reserve_exact(nodes);
+    all.reserve(units);
+    let (root, depth) = flatten(whole, &mut tree.nodes, &mut all);
+    tree.root = Some(root);
+    tree.stack = (WIDTH - 1) * depth + 1;
+    (tree, all)
 }
 
-impl Builder {
-    pub(crate) fn new(options: &BuildOptions) -> Self {
-        Self { _options: *options }
+/// Builds a set, with others if it is large.
+fn part<S: Store>(primitives: &mut [Primitive], set: Set, store: &S, depth: usize) -> Part<S> {
+    let mut own = store.empty();
+    if set.len() <= PARALLEL {
+        let (nodes, depth) = whole(primitives, set, &mut own);
+        return Part::Whole { nodes, store: own, depth };
     }
-
-    /// Builds a tree, and fills a store with what is in its leaves.
-    pub(crate) fn build<S: Store>(&self, mut primitives: Vec<Primitive>, store: S) -> (Tree, S) {
-        let extent = extent(&primitives);
-        let bounds = extent.bounds();
-        let mut tree = Tree { nodes: Vec::new(), root: None, bounds, reach: bounds.reach(), stack: 1 };
-        let mut all = store.empty();
-        if primitives.is_empty() {
-            return (tree, all);
+    let sets = cut::<S>(primitives, set, depth);
+    let mut node = Box::new(Node::EMPTY);
+    let mut rest = &mut primitives[..];
+    let mut taken = set.start;
+    let mut jobs = Vec::new();
+    for (slot, child) in sets.iter().enumerate() {
+        let (before, after) = rest.split_at_mut(child.end - taken);
+        (rest, taken) = (after, child.end);
+        if child.is_leaf {
+            node.set(slot, &child.extent.bounds(), push(before, &mut own));
+        } else {
+            node.set(slot, &child.extent.bounds(), Child::node(0));
+            let here = Set { start: 0, end: before.len(), ..*child };
+            jobs.push((slot, before, here));
         }
-        let set = Set { start: 0, end: primitives.len(), extent, is_leaf: false };
-        let part = self.part(&mut primitives, set, &store, 0);
-        drop(primitives);
-        let (nodes, units) = part.len();
-        tree.nodes.reserve_exact(nodes);
-        all.reserve(units);
-        let (root, depth) = flatten(part, &mut tree.nodes, &mut all);
-        tree.root = Some(root);
-        tree.stack = (WIDTH - 1) * depth + 1;
-        (tree, all)
     }
+    let parts = jobs
+        .into_par_iter()
+        .with_max_len(1)
+        .map(|(slot, primitives, set)| (slot, part(primitives, set, store, depth + 1)))
+        .collect();
+    Part::Forked { node, parts, store: own }
+}
 
-    /// Builds a set, with others if it is large.
-    fn part<S: Store>(&self, primitives: &mut [Primitive], set: Set, store: &S, depth: usize) -> Part<S> {
-        let mut own = store.empty();
-        if set.len() <= PARALLEL {
-            let (nodes, depth) = self.whole(primitives, set, &mut own);
-            return Part::Whole { nodes, store: own, depth };
-        }
-        let sets = self.cut::<S>(primitives, set, depth);
-        let mut node = Box::new(Node::EMPTY);
-        let mut rest = &mut primitives[..];
-        let mut taken = set.start;
-        let mut jobs = Vec::new();
-        for (slot, child) in sets.iter().enumerate() {
-            let (before, after) = rest.split_at_mut(child.end - taken);
-            (rest, taken) = (after, child.end);
-            if child.is_leaf {
-                node.set(slot, &child.extent.bounds(), push(before, &mut own));
-            } else {
-                node.set(slot, &child.extent.bounds(), Child::node(0));
-                let here = Set { start: 0, end: before.len(), ..*child };
-                jobs.push((slot, before, here));
+/// Builds a set's nodes, its own first. Returns how deep they go.
+fn whole<S: Store>(primitives: &mut [Primitive], set: Set, store: &mut S) -> (Vec<Node>, usize) {
+    let mut binary = Vec::with_capacity(set.len());
+    halve::<S>(primitives, set, &mut binary, 0, &mut Box::new(NO_BINS));
+    let leaf = |count: usize| {
+        let units = count.div_ceil(S::UNIT);
+        (units <= MOST_UNITS).then_some(units as f32)
+    };
+    let collapse = Collapse::new(&binary, S::NODE_COST, leaf);
+    let mut nodes = Vec::with_capacity(binary.len() / 4);
+    let depth = emit(&binary, &collapse, 0, primitives, &mut nodes, store);
+    (nodes, depth)
+}
+
+/// Cuts a set into up to eight, in the order of their places.
+fn cut<S: Store>(primitives: &mut [Primitive], set: Set, depth: usize) -> Vec<Set> {
+    let mut bins = Box::new(NO_BINS);
+    let mut sets = Vec::with_capacity(WIDTH);
+    sets.push(set);
+    while sets.len() < WIDTH {
+        let area = |set: &Set| set.extent.bounds().half_area();
+        let mut largest: Option<usize> = None;
+        for (index, set) in sets.iter().enumerate() {
+            if !set.is_leaf && largest.is_none_or(|other| area(set) > area(&sets[other])) {
+                largest = Some(index);
             }
         }
-        let parts = jobs
-            .into_par_iter()
-            .with_max_len(1)
-            .map(|(slot, primitives, set)| (slot, self.part(primitives, set, store, depth + 1)))
-            .collect();
-        Part::Forked { node, parts, store: own }
-    }
-
-    /// Builds a set's nodes, its own first. Returns how deep they go.
-    fn whole<S: Store>(&self, primitives: &mut [Primitive], set: Set, store: &mut S) -> (Vec<Node>, usize) {
-        let mut binary = Vec::with_capacity(set.len());
-        halve::<S>(primitives, set, &mut binary, 0, &mut Box::new(NO_BINS));
-        let leaf = |count: usize| {
-            let units = count.div_ceil(S::UNIT);
-            (units <= MOST_UNITS).then_some(units as f32)
-        };
-        let collapse = Collapse::new(&binary, S::NODE_COST, leaf);
-        let mut nodes = Vec::with_capacity(binary.len() / 4);
-        let depth = emit(&binary, &collapse, 0, primitives, &mut nodes, store);
-        (nodes, depth)
-    }
-
-    /// Cuts a set into up to eight, in the order of their places.
-    fn cut<S: Store>(&self, primitives: &mut [Primitive], set: Set, depth: usize) -> Vec<Set> {
-        let mut bins = Box::new(NO_BINS);
-        let mut sets = Vec::with_capacity(WIDTH);
-        sets.push(set);
-        while sets.len() < WIDTH {
-            let area = |set: &Set| set.extent.bounds().half_area();
-            let mut largest: Option<usize> = None;
-            for (index, set) in sets.iter().enumerate() {
-                if !set.is_leaf && largest.is_none_or(|other| area(set) > area(&sets[other])) {
-                    largest = Some(index);
-                }
+        let Some(index) = largest else { break };
+        match split::<S>(primitives, &sets[index], depth, &mut bins) {
+            Some([left, right]) => {
+                sets[index] = left;
+                sets.insert(index + 1, right);
             }
-            let Some(index) = largest else { break };
-            match split::<S>(primitives, &sets[index], depth, &mut bins) {
-                Some([left, right]) => {
-                    sets[index] = left;
-                    sets.insert(index + 1, right);
-                }
-                None => sets[index].is_leaf = true,
-            }
+            None => sets[index].is_leaf = true,
         }
-        sets
     }
+    sets
 }
 
 /// Cuts a set in two, and those again, as long as it can be done. Their nodes follow one upon the other.

@@ -18,7 +18,6 @@ mod tree;
 mod triangle;
 
 pub use bounds::Bounds;
-pub use build::{BuildOptions, Quality};
 pub use mesh::{Hit, MeshError, TriangleMesh};
 pub use packet::{AnyLeaves, ClosestLeaves, MOST_RAYS, Packet, PacketStack};
 pub use ray::{Ray, SLACK};

@@ -1,9 +1,9 @@
 //! A tree over triangles.
 
-use crate::build::{Builder, Primitive, Store};
+use crate::build::{Primitive, Store, build};
 use crate::prefetch::prefetch;
 use crate::triangle::{Block, Shear, hits};
-use crate::{Bounds, BuildOptions, Leaves, Ray, Stack, Tree};
+use crate::{Bounds, Leaves, Ray, Stack, Tree};
 use fearless_simd::prelude::*;
 use std::fmt;
 
@@ -65,11 +65,7 @@ impl TriangleMesh {
     ///
     /// # Errors
     /// Where a triangle names a vertex that is not there, or where there are more than 2^27 triangles.
-    pub fn build(
-        vertices: &[[f32; 3]],
-        triangles: &[[u32; 3]],
-        options: &BuildOptions,
-    ) -> Result<Self, MeshError> {
+    pub fn build(vertices: &[[f32; 3]], triangles: &[[u32; 3]]) -> Result<Self, MeshError> {
         if triangles.len() >= crate::tree::MOST {
             return Err(MeshError::TooMany { triangles: triangles.len() });
         }
@@ -89,7 +85,7 @@ impl TriangleMesh {
             }
         }
         let empty = Packed { vertices, triangles, blocks: Vec::new() };
-        let (tree, packed) = Builder::new(options).build(primitives, empty);
+        let (tree, packed) = build(primitives, empty);
         Ok(Self { tree, blocks: packed.blocks })
     }
 

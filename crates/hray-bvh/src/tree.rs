@@ -1,8 +1,8 @@
 //! The tree, and the walk along a ray through it.
 
-use crate::build::{Builder, Primitive, Store};
+use crate::build::{Primitive, Store, build};
 use crate::prefetch::prefetch;
-use crate::{Bounds, BuildOptions, Ray};
+use crate::{Bounds, Ray};
 use fearless_simd::prelude::*;
 use fearless_simd::{f32x8, mask32x8};
 
@@ -175,10 +175,10 @@ impl Tree {
     /// Sorts boxes into a tree, whose leaves are tested one thing at a time; and the numbers of the boxes, in the order in which
     /// leaves count them. Empty boxes are left out.
     #[must_use]
-    pub fn of_boxes(boxes: &[Bounds], options: &BuildOptions) -> (Self, Vec<u32>) {
+    pub fn of_boxes(boxes: &[Bounds]) -> (Self, Vec<u32>) {
         let primitives = (0u32..).zip(boxes).filter(|(_, bounds)| !bounds.is_empty());
         let primitives = primitives.map(|(number, bounds)| Primitive::new(bounds, number)).collect();
-        let (tree, Numbers(numbers)) = Builder::new(options).build(primitives, Numbers(Vec::new()));
+        let (tree, Numbers(numbers)) = build(primitives, Numbers(Vec::new()));
         (tree, numbers)
     }
 

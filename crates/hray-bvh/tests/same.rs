@@ -5,19 +5,13 @@
 mod common;
 
 use common::*;
-use hray_bvh::{BuildOptions, MeshError, Quality, TriangleMesh};
+use hray_bvh::{MeshError, TriangleMesh};
 use proptest::prelude::*;
-
-const QUALITIES: [Quality; 1] = [Quality::Medium];
 
 /// Many rays of all kinds; how many hit.
 fn check(mesh: &Mesh, random: &mut Random, count: usize, centre: [f32; 3], size: f32) -> usize {
     let rays: Vec<Plain> = (0..count).map(|_| ray(random, mesh, centre, size)).collect();
-    let mut hits = 0;
-    for quality in QUALITIES {
-        hits = compare(&mesh.build(quality), &rays).unwrap();
-    }
-    hits
+    compare(&mesh.build(), &rays).unwrap()
 }
 
 #[test]
@@ -67,7 +61,7 @@ fn ties_go_to_the_greater_number() {
         mesh.triangles.push(once[random.below(once.len())]);
     }
     check(&mesh, random, 2000, [0.0; 3], 1.0);
-    let tree = mesh.build(Quality::Medium);
+    let tree = mesh.build();
     let level = levels()[0];
     let mut stack = hray_bvh::Stack::default();
     for _ in 0..300 {
@@ -125,7 +119,7 @@ fn what_is_no_number_is_never_hit() {
     let finite = |triangle: &[u32; 3]| {
         triangle.iter().all(|vertex| mesh.vertices[*vertex as usize].iter().all(|x| x.is_finite()))
     };
-    let tree = mesh.build(Quality::Medium);
+    let tree = mesh.build();
     assert!(tree.bounds().reach() < 2.0);
     let rays: Vec<Plain> = (0..2000).map(|_| Plain::to(random.point(), random.point())).collect();
     assert!(compare(&tree, &rays).unwrap() > 100);
@@ -136,7 +130,7 @@ fn what_is_no_number_is_never_hit() {
         }
     }
     let nothing = Mesh { vertices: vec![[f32::NAN; 3]], triangles: vec![[0, 0, 0]; 9] };
-    assert_eq!(compare(&nothing.build(Quality::Medium), &rays[..10]), Ok(0));
+    assert_eq!(compare(&nothing.build(), &rays[..10]), Ok(0));
 }
 
 #[test]
@@ -159,12 +153,12 @@ fn rays_start_in_boxes_and_on_their_faces() {
         Plain::new(origin, direction)
     };
     let rays: Vec<Plain> = (0..6000).map(&mut grid).collect();
-    assert!(compare(&mesh.build(Quality::Medium), &rays).unwrap() > 300);
+    assert!(compare(&mesh.build(), &rays).unwrap() > 300);
 }
 
 #[test]
 fn rays_without_a_direction_or_a_place_meet_nothing() {
-    let mesh = soup(&mut Random(3), 500, 0.5).build(Quality::Medium);
+    let mesh = soup(&mut Random(3), 500, 0.5).build();
     let values = [0.0, -0.0, 1e-42, -1e-30, 1e-20, 1.0, 1e30, f32::INFINITY, f32::NEG_INFINITY, f32::NAN];
     let mut rays = Vec::new();
     for (a, b) in values.into_iter().flat_map(|a| values.map(|b| (a, b))) {
@@ -188,8 +182,7 @@ fn rays_without_a_direction_or_a_place_meet_nothing() {
 
 #[test]
 fn missing_vertices_are_errors() {
-    let build =
-        |triangles: &[[u32; 3]]| TriangleMesh::build(&[[0.0; 3]; 3], triangles, &BuildOptions::default());
+    let build = |triangles: &[[u32; 3]]| TriangleMesh::build(&[[0.0; 3]; 3], triangles);
     let error = build(&[[0, 1, 2], [0, 3, 1]]).unwrap_err();
     assert_eq!(error, MeshError::NoSuchVertex { triangle: 1, vertex: 3 });
     assert!(error.to_string().contains("triangle 1 has vertex 3"));
@@ -210,8 +203,7 @@ proptest! {
         let mesh = Mesh { vertices, triangles };
         let random = &mut Random(seed);
         let rays: Vec<Plain> = (0..100).map(|_| ray(random, &mesh, [0.0; 3], scale)).collect();
-        for quality in QUALITIES {
-            prop_assert!(compare(&mesh.build(quality), &rays).is_ok(), "{:?}", compare(&mesh.build(quality), &rays));
-        }
+        let compared = compare(&mesh.build(), &rays);
+        prop_assert!(compared.is_ok(), "{compared:?}");
     }
 }

@@ -6,7 +6,7 @@ mod common;
 
 use common::*;
 use fearless_simd::{Level, Simd, dispatch};
-use hray_bvh::{Quality, Stack, TriangleMesh};
+use hray_bvh::{Stack, TriangleMesh};
 
 /// Aims at edges and vertices and points of triangles from each origin, for `count` rays; they go on far behind, so that
 /// none ends before the surface. How many meet nothing.
@@ -23,7 +23,7 @@ fn slips(mesh: &Mesh, origins: &[[f32; 3]], count: usize, random: &mut Random) -
             Plain::to(origins[random.below(origins.len())], target)
         })
         .collect();
-    let tree = mesh.build(Quality::Medium);
+    let tree = mesh.build();
     dispatch!(Level::new(), simd => misses(simd, &tree, &rays))
 }
 
@@ -68,7 +68,7 @@ fn aim(count: usize) {
             Mesh { triangles: rim.iter().copied().filter(inner).collect(), vertices: mesh.vertices.clone() };
         let origins: Vec<_> = (0..30).map(|_| add([0.0, 1.5, 0.0], random.point(), 1.0)).collect();
         mesh.triangles = rim;
-        let tree = mesh.build(Quality::Medium);
+        let tree = mesh.build();
         let rays: Vec<Plain> = (0..count)
             .map(|_| {
                 let [a, b, _] = targets.corners(random.below(targets.triangles.len()));
@@ -108,7 +108,7 @@ fn trees_find_the_same_for_many_rays() {
         let shift = random.point().map(|x| x * place * scale);
         let mesh = mesh.moved(scale, shift);
         let rays: Vec<Plain> = (0..5_000).map(|_| ray(random, &mesh, shift, scale)).collect();
-        compare(&mesh.build(Quality::Medium), &rays).unwrap();
+        compare(&mesh.build(), &rays).unwrap();
     }
 }
 
@@ -118,7 +118,7 @@ fn threads_change_nothing() {
     for mesh in [soup(random, 60_000, 0.01), terrain(random, 150, 0.05), ball(random, 5, 0.01)] {
         let build = |threads: usize| {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-            pool.install(|| mesh.build(Quality::Medium))
+            pool.install(|| mesh.build())
         };
         let one = build(1);
         for threads in [2, 5] {

@@ -6,7 +6,7 @@ use crate::meshes::Mesh;
 use crate::rays::Ray;
 use crate::trace::{Hit, Tracer};
 use fearless_simd::{Level, dispatch, prelude::*};
-use hray_bvh::{BuildOptions, Stack, TriangleMesh};
+use hray_bvh::{Stack, TriangleMesh};
 
 /// Builds each of our tracers over the mesh on `threads` threads, timed by `clock`.
 ///
@@ -15,9 +15,8 @@ use hray_bvh::{BuildOptions, Stack, TriangleMesh};
 pub fn build(mesh: &Mesh, threads: usize, clock: Clock) -> Result<Vec<Contestant>> {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
     let pool = pool.map_err(|error| format!("no threads to build with: {error}"))?;
-    let options = BuildOptions::default();
-    let (tree, time) = clock
-        .time(threads, || pool.install(|| TriangleMesh::build(&mesh.vertices, &mesh.triangles, &options)));
+    let (tree, time) =
+        clock.time(threads, || pool.install(|| TriangleMesh::build(&mesh.vertices, &mesh.triangles)));
     let tree = tree.map_err(|error| error.to_string())?;
     let bytes = tree.bytes() as u64;
     Ok(vec![Contestant {

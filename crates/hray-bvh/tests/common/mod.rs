@@ -3,7 +3,7 @@
 #![allow(dead_code, unreachable_pub, reason = "each test uses a part")]
 
 use fearless_simd::{Level, Simd, dispatch};
-use hray_bvh::{BuildOptions, Hit, Quality, Ray, Stack, TriangleMesh};
+use hray_bvh::{Hit, Ray, Stack, TriangleMesh};
 
 /// Numbers that look random and are the same each time (Steele, Lea and Flood, *Fast Splittable Pseudorandom Number
 /// Generators*, 2014).
@@ -43,10 +43,8 @@ pub struct Mesh {
 }
 
 impl Mesh {
-    pub fn build(&self, quality: Quality) -> TriangleMesh {
-        let mut options = BuildOptions::default();
-        options.quality = quality;
-        TriangleMesh::build(&self.vertices, &self.triangles, &options).unwrap()
+    pub fn build(&self) -> TriangleMesh {
+        TriangleMesh::build(&self.vertices, &self.triangles).unwrap()
     }
 
     pub fn corners(&self, triangle: usize) -> [[f32; 3]; 3] {

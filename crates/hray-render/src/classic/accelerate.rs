@@ -7,7 +7,7 @@ use super::solid::{Solid, Walk};
 use super::trace::{Nearest, mesh_hit, mesh_shadow, placed_hit, solid_hit};
 use fearless_simd::f32x8;
 use fearless_simd::prelude::*;
-use hray_bvh::{AnyLeaves, Bounds, BuildOptions, ClosestLeaves, MOST_RAYS, Packet, Tree};
+use hray_bvh::{AnyLeaves, Bounds, ClosestLeaves, MOST_RAYS, Packet, Tree};
 use hray_core::{CsgOperation, DVec3};
 use hray_expr::kernels::lanes::{Lanes, Mask, Vec3};
 use std::ops::Range;
@@ -89,7 +89,7 @@ pub(super) fn accelerate(geometry: &mut Geometry) {
         .iter()
         .map(|[min, max]| Bounds::outward((*min - center).to_array(), (*max - center).to_array()))
         .collect();
-    let (tree, order) = Tree::of_boxes(&boxes, &BuildOptions::default());
+    let (tree, order) = Tree::of_boxes(&boxes);
     let items = order.iter().map(|&number| items[number as usize]).collect();
     geometry.roots = others;
     geometry.tree = Some(Accelerated { tree, items, center });

@@ -3,7 +3,7 @@
 
 use super::solid::Ray;
 use fearless_simd::prelude::*;
-use hray_bvh::{BuildOptions, MeshError, SLACK, Stack, TriangleMesh};
+use hray_bvh::{MeshError, SLACK, Stack, TriangleMesh};
 use hray_core::{DVec3, Mesh};
 use std::sync::Arc;
 
@@ -36,7 +36,7 @@ pub(super) struct Located {
 
 impl PreparedMesh {
     pub(super) fn new(mesh: Arc<Mesh>) -> Result<Self, MeshError> {
-        let tree = TriangleMesh::build(mesh.positions(), mesh.triangles(), &BuildOptions::default())?;
+        let tree = TriangleMesh::build(mesh.positions(), mesh.triangles())?;
         Ok(Self { mesh, tree })
     }
 
