@@ -38,7 +38,7 @@ pub(crate) fn run(arguments: &CheckArgs, console: &Console) -> Result<(), Failur
     let mut findings = Findings(Vec::new());
     for path in &arguments.inputs {
         let input = Input::from_argument(path.clone());
-        match SceneFile::read(&input, &load) {
+        match console.with_patience(job::READING, || SceneFile::read(&input, &load)) {
             Ok(file) => {
                 if arguments.json {
                     findings.0.extend(file.findings().0);

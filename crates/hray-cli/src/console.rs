@@ -3,7 +3,10 @@
 use indicatif::ProgressBar;
 use std::fmt::Display;
 use std::io::{self, IsTerminal, Write};
+use std::sync::mpsc::{self, RecvTimeoutError};
 use std::sync::{Mutex, PoisonError};
+use std::thread;
+use std::time::Duration;
 
 /// The terminal, or whatever stands in its place. Standard output is for what was asked for; everything else
 /// goes to standard error. Where standard error itself cannot be written to there is nobody left to tell, so
@@ -78,6 +81,22 @@ impl Console {
         set(None);
         bar.finish_and_clear();
         result
+    }
+
+    /// Says what is going on where `action` takes more than two seconds.
+    pub(crate) fn with_patience<T>(&self, doing: &str, action: impl FnOnce() -> T) -> T {
+        const PATIENCE: Duration = Duration::from_secs(2);
+        let (done, wait) = mpsc::channel::<()>();
+        thread::scope(|scope| {
+            scope.spawn(move || {
+                if wait.recv_timeout(PATIENCE) == Err(RecvTimeoutError::Timeout) {
+                    self.say(format_args!("still {doing} ... (Ctrl-C stops)\n"));
+                }
+            });
+            let result = action();
+            drop(done);
+            result
+        })
     }
 
     /// Writes what was asked for to standard output. A reader who has left early had enough, which is no

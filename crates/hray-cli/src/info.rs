@@ -3,6 +3,7 @@
 use crate::args::InfoArgs;
 use crate::console::Console;
 use crate::failure::Failure;
+use crate::job::READING;
 use crate::summary::{counted, grouped};
 use hray::{
     CameraSummary, Error, Input, Language, LintLevels, Meshes, Objects, SceneFile, Summary, WorstCase,
@@ -13,7 +14,7 @@ use std::fmt::Write;
 pub(crate) fn run(arguments: &InfoArgs, console: &Console) -> Result<(), Failure> {
     let input = Input::from_argument(arguments.input.clone());
     let load = arguments.scene.options(&LintLevels::default(), arguments.time.unwrap_or(0.0));
-    let file = SceneFile::read(&input, &load).map_err(Error::from)?;
+    let file = console.with_patience(READING, || SceneFile::read(&input, &load)).map_err(Error::from)?;
     let Some(description) = file.description() else {
         console.say(file.report(console.has_color()));
         return Err(Failure::Told);

@@ -12,13 +12,16 @@ use std::path::Path;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
+/// What reading a scene is called where it takes long.
+pub(crate) const READING: &str = "working out the scene";
+
 /// Reads a scene without errors and shows its warnings.
 pub(crate) fn read_scene(
     input: &Input,
     options: &LoadOptions,
     console: &Console,
 ) -> Result<SceneFile, Failure> {
-    let file = SceneFile::read(input, options).map_err(Error::from)?;
+    let file = console.with_patience(READING, || SceneFile::read(input, options)).map_err(Error::from)?;
     console.say(report(&file, console));
     if file.description().is_some() { Ok(file) } else { Err(Failure::Told) }
 }

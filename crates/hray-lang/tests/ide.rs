@@ -322,7 +322,7 @@ fn evaluation_adds_what_it_finds_and_ends() {
     assert_eq!((found.len(), found[0].severity), (1, Severity::Error));
     let found = evaluated("scene = { depth = iterate 1e9 (\\x -> x < 0) (\\x -> x + 1) 0 }");
     assert_eq!((found.len(), found[0].severity), (1, Severity::Warning), "{found:?}");
-    assert_eq!(evaluated("scene = { objects = [ sphere {} ] }"), []);
+    assert_eq!(evaluated("scene = { objects = [ sphere {} ], lights = [ ambient {} ] }"), []);
     assert_eq!(evaluated("x = at 3 [1]"), []);
 }
 

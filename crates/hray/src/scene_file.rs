@@ -148,6 +148,7 @@ impl SceneFile {
                 (program, diagnostics) = (free, found);
             }
         }
+        blame_values_that_were_set(&mut diagnostics, (name, path), &program, options, &assets);
         let module = if options.modules { definitions_of_module(&program, &diagnostics) } else { None };
         if module.is_some() {
             diagnostics.retain(|diagnostic| diagnostic.code != NO_SCENE);
@@ -262,6 +263,33 @@ impl SceneFile {
     pub fn into_description(mut self) -> Result<Description, LoadError> {
         self.description.take().ok_or_else(|| LoadError::Scene(Box::new(self)))
     }
+}
+
+/// Where a scene has errors only for the values that were set, says so beside the first of them.
+fn blame_values_that_were_set(
+    diagnostics: &mut [Diagnostic],
+    (name, path): (&str, &str),
+    program: &Program,
+    options: &LoadOptions,
+    assets: &FolderAssets,
+) {
+    let Some(first) = diagnostics.iter_mut().find(|diagnostic| diagnostic.is_error()) else { return };
+    let (Some(set), Some(root)) = (options.set.first(), program.sources.files().first()) else { return };
+    let mut found = Vec::new();
+    let plain = Program::load(name, path, root.text.clone(), &[], assets, &mut found);
+    types::check(&plain, &mut found);
+    if found.iter().any(Diagnostic::is_error) {
+        return;
+    }
+    let (name, value) = set;
+    let which = if options.set.len() == 1 {
+        format!("`{name}`, set to `{value}`,")
+    } else {
+        "a value that was set".into()
+    };
+    first
+        .notes
+        .push(format!("without what was set the scene is right: {which} does not fit where it is used"));
 }
 
 /// A scene at one moment after another.

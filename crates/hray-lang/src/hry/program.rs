@@ -392,6 +392,11 @@ pub(super) fn missing_asset(assets: &dyn Assets, path: &str, span: Span, error: 
     match error {
         AssetError::NotFound => {
             let around = assets.neighbours(path);
+            let with_ending = format!("{path}.hry");
+            if around.contains(&with_ending) {
+                return diagnostic
+                    .with_help(format!("did you mean {with_ending:?}? The ending belongs to the name"));
+            }
             match nearest(path, around.iter().map(String::as_str)) {
                 Some(near) => diagnostic.with_help(format!("did you mean {near:?}?")),
                 None => diagnostic.with_help(

@@ -82,7 +82,8 @@ fn meaning(field: &FieldSpec) -> String {
     let range = match field.range {
         Range::Any => return field.doc.to_owned(),
         Range::Positive => "Greater than 0.".to_owned(),
-        Range::Radius => "Greater than 0; otherwise hray warns.".to_owned(),
+        Range::Radius | Range::Ior => "Greater than 0; otherwise hray warns.".to_owned(),
+        Range::Shine => "0 or greater; otherwise hray warns.".to_owned(),
         Range::Normal => "Not zero; otherwise hray warns.".to_owned(),
         Range::NonNegative => "0 or greater.".to_owned(),
         Range::Share => "From 0 to 1; beyond, hray warns.".to_owned(),
@@ -106,8 +107,8 @@ pub fn library(checked: &Checked) -> String {
          All of this is in scope everywhere. A definition of yours may use the same name, and then wins. `numeric` stands \
          for a number, a vector or a colour; `vector` for a vector of two or three; `placeable` for a shape, a material, a \
          light, a camera or a function of a hit; `appendable` for a list or a text; other names in lower case for any type.\n\n\
-         What is *built in* is listed first; everything after it is written in hry, in `crates/hray-lang/std`, where you may \
-         look at it, and copy it.\n\n## Built in\n",
+         What is *built in* is listed first; everything after it is written in hry: an editor's *go to definition* opens its \
+         text, to be looked at and copied (it lies in `crates/hray-lang/std` of hray's source).\n\n## Built in\n",
     );
     let mut group = "";
     for native in NATIVES {

@@ -47,6 +47,10 @@ const VALUES: &[Lint] = &[
         "A field has a value that is worked out, and lies outside of what makes sense for it, such as a reflection above 1.",
     ),
     lint(
+        "camera-inside-sphere",
+        "The camera is inside a sphere that lets no light through, and no light is in there: the picture is dark.",
+    ),
+    lint(
         "not-read",
         "A file of meshes has something that is not taken over, such as images, or names a file that is not there.",
     ),

@@ -13,10 +13,32 @@ macro_rules! mistakes {
     )+};
 }
 
+/// Scenes that are rendered all the same.
+macro_rules! oddities {
+    ($($name:ident: $text:expr;)+) => {$(
+        #[test]
+        fn $name() {
+            let (program, evaluated) = run_with($text, &Files::default(), 0.0, &Limits::default());
+            assert!(evaluated.description.is_some());
+            assert_snapshot!(stringify!($name), shown(&program, &evaluated.diagnostics));
+        }
+    )+};
+}
+
+oddities! {
+    no_lights: "scene = { objects = [sphere {}] }";
+    light_in_a_sphere: "scene = { lights = [point { position = (0, 5, 0) }], objects = [sphere {}, sphere { radius = 2 } |> translate (0, 5, 0)] }";
+    camera_in_a_sphere: "scene = { lights = [point { position = (9, 9, 9) }], objects = [sphere { radius = 8 }] }";
+    depth_of_nothing: "scene = { depth = -1, lights = [ambient {}], objects = [sphere {}] }";
+    negative_shine: "s = 2 - 5\nscene = { lights = [ambient {}], objects = [sphere { material = classic { shine = s, ior = s } }] }";
+}
+
 mistakes! {
     needs_itself: "a = b + 1\nb = a * 2\nscene = { objects = [sphere { radius = a }] }";
     size_worked_out_to_be_negative: "r = 1 - 3\nscene = { objects = [cube { size = r }] }";
     radius_not_a_number: "scene = { objects = [sphere { radius = 0 / 0.0 + 1 }] }";
+    root_of_a_negative_number: "scene = { objects = [sphere { radius = sqrt (0 - 1) }] }";
+    infinite: "scene = { objects = [sphere { radius = exp 1000 }] }";
     size_not_whole: "w = 640 / 7\nscene = { size = (w, 480) }";
     angle_without_deg: "a = 60\nscene = { camera = perspective { from = (0, 0, 5), fov = a } }";
     no_such_element: "scene = { objects = [sphere { radius = at 3 [1, 2, 3] }] }";

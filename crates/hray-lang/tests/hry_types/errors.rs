@@ -36,6 +36,50 @@ mistakes! {
         unknown_type: "f : Float -> Number\nf x = x";
     }
 
+    newcomers {
+        unit_apart: "a = sphere {} |> rotate up 30 deg";
+        degrees: "a = sphere {} |> rotate up 30\nb = sin -45 + cos 3\nc = hsl 120 1 0.5";
+        percent: "a = hsl 120deg 100 50";
+        bytes: "a = rgb 255 128 0\nb = rgb 2 2 2";
+        haskell_dot: "a = (sqrt . abs) 2";
+        parentheses_for_braces: "a = sphere (radius = 1, center = (0, 1, 0))\nb = cube(size: 2)";
+        group_with_commas: "a = group sphere {}, cube {}";
+        group_of_two: "a = group (sphere {}) (cube {})";
+        difference_of_a_list: "a = difference [sphere {}, cube {}]\nb = union [sphere {}, cube {}, plane {}]";
+        call_in_a_call: "ball r s = sphere { radius = r * s }\na = ball sin 3 2";
+        three_numbers: "a = sphere { center = 1 2 3 }\nb = sphere { center = 0 -1 2 }";
+        number_before_shape: "a = 1 sphere { radius = 2 }";
+        question: "a = sphere { radius = 1 > 2 ? 3 : 4 }";
+        minus_apart: "ball x c = sphere { center = (x, 0, 0), material = classic { color = c } }\na = ball - 1.6 white\nb = ball 1 - 2";
+        quote_not_closed: "a = { file = \"a.png, list = [1, (2)] }\nb = 1";
+        no_such_shape: "a = cone { radius = 1 }\nb = disc {}";
+        no_such_camera: "a = fisheye { fov = 180deg }";
+        colors: "a = purple\nb = darkGreen";
+        time: "a = sphere {} |> rotate up (turn * time)";
+        greek: "a = sphere { radius = π }";
+        axis: "a = sphere {} |> rotate y 30deg";
+        scale_of_a_vector: "a = sphere {} |> scale (1, 2, 1)";
+        stretch_of_a_number: "a = sphere {} |> stretch 2";
+        cube_of_a_vector: "a = cube { size = (1, 2, 1) }";
+        box_of_a_number: "a = box { size = 2 }";
+        one_argument_less: "a = classic { color = rgb 1 0 }\nb = classic { color = ramp [#ff0000, #0000ff] }";
+        method: "a = sphere {}.translate (0, 1, 0)";
+        pipe_missing: "a = sphere {} |> translate (0, 1, 0) rotate up 30deg";
+        hides_the_library: "sphere r = sphere { radius = r }\na = sphere 2";
+        fields_without_names: "a = sphere { (0, 1, 0), 2 }";
+        compared_field: "a = sphere { radius == 1 }";
+        part_of_a_field: "a = sphere { center.x = 1 }";
+        vector_as_list: "a = sphere { center = [0, 1, 0] }";
+        vector_as_record: "a = sphere { center = { x = 1, y = 2, z = 3 } }";
+        index: "v = [1, 2]\na = v[0] + v[count v - 1]";
+        record_for_values: "ball r = sphere { radius = r }\na = ball { r = 1 }";
+        python: "a = [ sphere { radius = i } | i <- [1 .. 3] ]\nb = [ sphere { radius = i } for i in range(10) ]";
+        javascript: "const ball = (r) => sphere { radius = r }\na = ball (Math.sqrt 2)";
+        def: "def ball(r) = sphere { radius = r }\na = ball 2";
+        grey_in_mix: "red = #ff0000\na = mix 0 red 0.5";
+        refraction: "a = classic { ior = 0, transparency = 1, shine = -3 }";
+    }
+
     fields {
         of_a_constructor: "a = sphere { radios = 1 }";
         color_of_a_sphere: "a = sphere { color = white }";
@@ -228,6 +272,7 @@ scenes! {
     fraction_of_samples: "scene = { samples = 1.5, objects = [] }\n";
     camera_without_braces: "scene = { camera = perspective, objects = [] }\n";
     background_of_a_hit: "scene = { background = \\h -> white * h.p.x, objects = [] }\n";
+    misspelt_integrator: "scene = { integrator = whited, encoding = sRGB, objects = [] }\n";
     two_parameters: "scene t s = { objects = [ sphere { radius = t * s } ] }\n";
     text_for_time: "scene t = { objects = [ sphere { radius = t ++ \"x\" } ] }\n";
     through_another: "base = { objects = [], lihgts = [] }\nscene = base\n";

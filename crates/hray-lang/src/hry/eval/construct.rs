@@ -144,7 +144,10 @@ impl<'a> Machine<'a> {
         };
         let whole = |n: &f64| n.fract() == 0.0;
         let error = match field.range {
-            _ if numbers.iter().any(|n| !n.is_finite()) => Some(complain("finite".into())),
+            _ if numbers.iter().any(|n| !n.is_finite()) => {
+                let name = format!("`{}` of `{}`", field.name, constructor.name);
+                return Err(Failure::new(not_finite(&name, numbers, &self.show(value, 60), span)));
+            }
             Range::Positive if numbers.iter().any(|n| *n <= 0.0) => Some(complain("greater than 0".into())),
             Range::Positives if numbers.iter().any(|n| *n <= 0.0) => {
                 Some(complain("greater than 0 in every component".into()))
@@ -174,13 +177,17 @@ impl<'a> Machine<'a> {
             Range::Light => numbers.iter().any(|n| *n < 0.0).then_some("0 or greater"),
             Range::Radius => numbers.iter().any(|n| *n <= 0.0).then_some("greater than 0"),
             Range::Normal => numbers.iter().all(|n| *n == 0.0).then_some("not zero"),
+            Range::Ior => numbers.iter().any(|n| *n <= 0.0).then_some("greater than 0"),
+            Range::Shine => numbers.iter().any(|n| *n < 0.0).then_some("0 or greater"),
             _ => None,
         };
         if let Some(wanted) = odd {
-            let mut warning = complain(format!("usually {wanted}"));
-            warning.severity = crate::diagnostic::Severity::Warning;
-            warning.code = "unusual-value";
-            self.warn(warning);
+            let shown = self.show(value, 60);
+            let message = format!(
+                "the field `{}` of `{}` is usually {wanted}, and this is {shown}",
+                field.name, constructor.name
+            );
+            self.warn(Diagnostic::warning("unusual-value", message, span, "surely not meant"));
         }
         Ok(())
     }
@@ -192,6 +199,20 @@ impl<'a> Machine<'a> {
             self.warnings.push(warning);
         }
     }
+}
+
+/// The complaint about a value that is no number, or infinite.
+fn not_finite(name: &str, numbers: &[f64], shown: &str, span: Span) -> Diagnostic {
+    if numbers.iter().any(|n| n.is_nan()) {
+        let shown = if shown == "NaN" { String::new() } else { format!(": {shown}") };
+        let message = format!("{name} is NaN, which means not a number{shown}");
+        return Diagnostic::error("out-of-range", message, span, "cannot be calculated").with_help(
+            "NaN is the result of 0 / 0, of the square root of a negative number, of `ln`, `acos` and `asin` outside of \
+             what they take, and of everything calculated with it",
+        );
+    }
+    Diagnostic::error("out-of-range", format!("{name} is infinite: {shown}"), span, "too large")
+        .with_help("infinity is the result of a division by 0, and of numbers beyond 1.8e308")
 }
 
 impl<'m, 'a> Fields<'m, 'a> {

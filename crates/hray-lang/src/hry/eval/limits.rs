@@ -21,7 +21,7 @@ pub struct Limits {
 
 impl Default for Limits {
     fn default() -> Self {
-        Self { steps: 1_000_000_000, depth: 10_000, list: 10_000_000, memory: 4 << 30, nodes: 1_000_000 }
+        Self { steps: 200_000_000, depth: 10_000, list: 10_000_000, memory: 4 << 30, nodes: 1_000_000 }
     }
 }
 

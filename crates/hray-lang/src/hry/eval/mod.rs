@@ -14,6 +14,7 @@ mod compile;
 mod construct;
 mod failure;
 mod limits;
+mod lints;
 mod lists;
 mod machine;
 mod mesh;

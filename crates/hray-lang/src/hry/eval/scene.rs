@@ -4,6 +4,7 @@ use super::compile::internal;
 use super::construct::Fields;
 use super::failure::{Failure, Outcome};
 use super::limits::Limits;
+use super::lints::Places;
 use super::machine::Machine;
 use super::texture::Compiled;
 use super::value::{Given, MaterialValue, ShapeNode, ShapeValue, Value};
@@ -159,6 +160,13 @@ impl Machine<'_> {
         let resolution = Resolution::new(width as i64, height as i64).map_err(|error| {
             Failure::new(Diagnostic::error("out-of-range", error.to_string(), size_span, "this size"))
         })?;
+        let place = |name| fields.optional(name).map_or(span, |given| given.span);
+        let places = Places {
+            lights: place("lights"),
+            camera: place("camera"),
+            depth: place("depth"),
+            objects: place("objects"),
+        };
         let max_depth = fields.number("depth")? as i32;
         let samples = NonZeroU32::new(fields.number("samples")? as u32).unwrap_or(NonZeroU32::MIN);
         let wrong = |value: &Value| internal(span, &format!("{} in the scene", value.describe()));
@@ -205,7 +213,9 @@ impl Machine<'_> {
             }
         }
         let scene = Scene { camera, background, primitives, lights, time };
-        Ok(Description { resolution, max_depth, samples, integrator, encoding, scene })
+        let description = Description { resolution, max_depth, samples, integrator, encoding, scene };
+        self.lint(&description, places);
+        Ok(description)
     }
 
     /// Adds the primitives that a shape consists of.

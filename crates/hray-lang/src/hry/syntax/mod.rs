@@ -11,7 +11,7 @@
 //! tree may recurse.
 
 mod brackets;
-mod complaint;
+pub(crate) mod complaint;
 mod kind;
 mod lexer;
 mod lower;
@@ -20,7 +20,7 @@ mod tree;
 
 pub use kind::{Hry, SyntaxElement, SyntaxKind, SyntaxNode, SyntaxToken};
 
-use super::ast::Module;
+use super::ast::{ExprKind, Module};
 use crate::diagnostic::{Diagnostic, Span};
 pub(super) use lexer::{Token, trivia};
 use std::sync::Arc;
@@ -64,7 +64,19 @@ impl Parse {
     /// The abstract syntax. Definitions that could be read are in it, whatever else is wrong.
     #[must_use]
     pub fn module(&self) -> Module {
-        lower::module(&self.text, self.base, &self.tokens, &self.nodes)
+        let mut module = lower::module(&self.text, self.base, &self.tokens, &self.nodes);
+        // What is left of a value without a character that means nothing may mean anything.
+        for error in self.errors.iter().filter(|error| error.code == "unknown-character") {
+            let place = error.primary.span.start;
+            let around = module
+                .definitions
+                .iter_mut()
+                .find(|definition| definition.span.start <= place && place < definition.span.end);
+            if let Some(definition) = around {
+                definition.body.kind = ExprKind::Error;
+            }
+        }
+        module
     }
 
     /// What is wrong with the text, in its order; the twenty first errors at most.

@@ -39,6 +39,10 @@ pub fn check(program: &Program, diagnostics: &mut Vec<Diagnostic>) -> Checked {
     }
     infer.finish();
     found.append(&mut infer.diagnostics);
+    // Where the scene is something else altogether, all the rest is unused for that reason.
+    if found.iter().any(|diagnostic| diagnostic.code == "wrong-scene") {
+        found.retain(|diagnostic| !matches!(diagnostic.code, "unused-definition" | "unused-import"));
+    }
     // A value that lacks its hit is no function for want of it, so that is not wrong as well.
     let no_functions: Vec<Span> = found
         .iter()

@@ -10,6 +10,14 @@ const fn lint(code: &'static str, explanation: &'static str) -> Lint {
 /// The warnings that this pass gives.
 pub const LINTS: &[Lint] = &[
     lint(
+        "angle-unit",
+        "An angle of more than a turn stands there without `deg`: angles are in radians, and 30 degrees are `30deg`.",
+    ),
+    lint(
+        "color-scale",
+        "The components of `rgb` are written as bytes from 0 to 255: they are linear light, where 1 is white.",
+    ),
+    lint(
         "constant-condition",
         "The condition of an `if` is written as `true` or `false`, so one branch is never used.",
     ),

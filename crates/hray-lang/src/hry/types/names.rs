@@ -7,7 +7,7 @@ use crate::hry::ast::{
     Definition, Expr, ExprKind, FieldValue, Import, ImportNames, Module, Name, Pattern, PatternKind,
     Qualifier,
 };
-use crate::hry::library::FieldType;
+use crate::hry::library::{CONSTRUCTORS, Constructor, FieldType, Makes};
 use crate::hry::program::{Global, LoadedModule};
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -88,6 +88,8 @@ pub(super) fn resolve(
         member: HashMap::new(),
         varying: None,
         hit_missing: None,
+        choices: &[],
+        called: None,
     };
     resolver.imports(&module.syntax);
     for (index, definition) in module.syntax.definitions.iter().enumerate() {
@@ -122,6 +124,16 @@ pub(super) fn same(a: Global, b: Global) -> bool {
     }
 }
 
+/// The values of a type that has only a few.
+const fn choices(kind: FieldType) -> &'static [&'static str] {
+    match kind {
+        FieldType::Integrator => &["whitted", "classic2005"],
+        FieldType::Encoding => &["srgb", "raw"],
+        FieldType::Bool => &["true", "false"],
+        _ => &[],
+    }
+}
+
 /// A group of bindings that is being walked.
 struct Group {
     /// Which of them; none while their body is.
@@ -144,6 +156,10 @@ struct Resolver<'a> {
     varying: Option<Span>,
     /// The name of a hit that such a value lacks, which was said.
     hit_missing: Option<(Span, Arc<str>)>,
+    /// The values of which the field that is being walked takes one.
+    choices: &'static [&'static str],
+    /// The start of a name that is given arguments.
+    called: Option<usize>,
 }
 
 impl Resolver<'_> {
@@ -181,7 +197,13 @@ impl Resolver<'_> {
         for parameter in &definition.parameters {
             self.bind(parameter, definition.span, false, &mut locals);
         }
-        self.expr(&definition.body);
+        match (&definition.body.kind, definition.name()) {
+            (ExprKind::Record(fields), Some(name)) if &*name.text == "scene" => {
+                let scene = CONSTRUCTORS.iter().find(|constructor| constructor.makes == Makes::Scene);
+                self.fields_of(scene, fields);
+            }
+            _ => self.expr(&definition.body),
+        }
         self.leave(&locals);
     }
 
@@ -297,7 +319,10 @@ impl Resolver<'_> {
         let locals = self.scopes.iter().filter(|(_, locals)| !locals.is_empty());
         let mut locals: Vec<&str> = locals.map(|(name, _)| &**name).collect();
         locals.sort_unstable();
-        self.diagnostics.push(unknown::name(name, span, self.module, &locals));
+        let is_called = self.called == Some(span.start);
+        let around =
+            unknown::Around { module: self.module, locals: &locals, choices: self.choices, is_called };
+        self.diagnostics.push(unknown::name(name, span, &around));
         Meaning::Nothing
     }
 
@@ -323,11 +348,20 @@ impl Resolver<'_> {
             Some(Meaning::Global(Global::Constructor(constructor))) => Some(*constructor),
             _ => None,
         };
+        self.fields_of(constructor, fields);
+    }
+
+    fn fields_of(&mut self, constructor: Option<&'static Constructor>, fields: &[FieldValue]) {
         for field in fields {
             let found = constructor.and_then(|constructor| constructor.field(&field.name.text));
             let varies = found.is_some_and(|(_, spec)| spec.varies || spec.kind == FieldType::Height);
             let outer = std::mem::replace(&mut self.varying, varies.then_some(field.value.span));
+            self.choices = match (found.map(|(_, spec)| spec.kind), &field.value.kind) {
+                (Some(kind), ExprKind::Name(_)) => choices(kind),
+                _ => &[],
+            };
             self.expr(&field.value);
+            self.choices = &[];
             self.varying = outer;
         }
     }
@@ -428,6 +462,9 @@ impl Resolver<'_> {
                 }
             }
             ExprKind::Apply { function, argument } => {
+                if let ExprKind::Name(_) = function.kind {
+                    self.called = Some(function.span.start);
+                }
                 self.expr(function);
                 match (&function.kind, &argument.kind) {
                     (ExprKind::Name(_), ExprKind::Record(fields)) => {

@@ -1,8 +1,10 @@
 //! Names that mean nothing, and what was probably meant.
 
 use crate::diagnostic::{Diagnostic, Span};
+use crate::hry::ast::PatternKind;
 use crate::hry::library::{CONSTRUCTORS, Constructor};
 use crate::hry::program::{Global, LoadedModule, listed, nearest};
+use crate::hry::syntax::complaint::foreign::is_put_before_definitions;
 use std::collections::HashMap;
 use std::sync::Arc;
 
@@ -24,14 +26,25 @@ const FOREIGN: &[Foreign] = &[
         "",
         "the background is a field of the scene: `scene = { background = #cfe3ff, ... }`",
     ),
+    Foreign(
+        "blob",
+        "",
+        "there is no blob yet; the shapes are `sphere`, `plane`, `cube`, `box`, `mesh` and `triangles`",
+    ),
     Foreign("boolean", "", "the type of `true` and `false` is `Bool`"),
     Foreign(
         "camera",
         "",
         "a camera is `perspective { from = ..., to = ... }`, `orthographic { ... }` or `window { ... }`",
     ),
+    Foreign(
+        "capsule",
+        "",
+        "there is no capsule yet; the shapes are `sphere`, `plane`, `cube`, `box`, `mesh` and `triangles`",
+    ),
     Foreign("case", "", "cases are written `match x { 0 -> a, _ -> b }`"),
     Foreign("ceiling", "ceil", ""),
+    Foreign("clock", "", "the time in seconds is the parameter of the scene: `scene t = { ... }`"),
     Foreign(
         "color",
         "",
@@ -43,9 +56,18 @@ const FOREIGN: &[Foreign] = &[
         "a colour is `rgb 1 0.5 0` or `#ff8800`; a material of that colour `classic { color = #ff8800 }`",
     ),
     Foreign("concatmap", "", "a comprehension does it: `[ y | x <- list, y <- f x ]`"),
+    Foreign(
+        "cone",
+        "",
+        "there is no cone yet; the shapes are `sphere`, `plane`, `cube`, `box`, `mesh` and `triangles`",
+    ),
     Foreign("const", "", "a function that ignores its argument is `\\_ -> x`"),
     Foreign("cuboid", "box", ""),
-    Foreign("cylinder", "", "there is no cylinder yet; the shapes are `sphere`, `plane`, `cube` and `box`"),
+    Foreign(
+        "cylinder",
+        "",
+        "there is no cylinder yet; the shapes are `sphere`, `plane`, `cube`, `box`, `mesh` and `triangles`",
+    ),
     Foreign("declare", "", "a definition is `name = value`"),
     Foreign("def", "", "a function is `name parameter = value`"),
     Foreign("define", "", "a definition is `name = value`"),
@@ -56,9 +78,22 @@ const FOREIGN: &[Foreign] = &[
     ),
     Foreign("diffuse", "classic", "a matte material is `classic { color = ... }`"),
     Foreign("directional_light", "directional", ""),
+    Foreign(
+        "disc",
+        "",
+        "there is no disc yet; the shapes are `sphere`, `plane`, `cube`, `box`, `mesh` and `triangles`",
+    ),
+    Foreign(
+        "disk",
+        "",
+        "there is no disk yet; the shapes are `sphere`, `plane`, `cube`, `box`, `mesh` and `triangles`",
+    ),
     Foreign("do", "", "there are no statements; intermediate values are named by `let ... in`"),
+    Foreign("down", "", "it is `-up`"),
     Foreign("e", "", "it is `exp 1`"),
     Foreign("elif", "", "write `else if`"),
+    Foreign("ellipsoid", "", "an ellipsoid is a sphere, stretched: `sphere {} |> stretch (2, 1, 1)`"),
+    Foreign("enumerate", "", "numbers and elements together are `zipWith f [0 .. count list - 1] list`"),
     Foreign("exp2", "", "a power is written `2 ^ x`"),
     Foreign("exponent", "exp", ""),
     Foreign("fabs", "abs", ""),
@@ -67,21 +102,48 @@ const FOREIGN: &[Foreign] = &[
         "",
         "a material is one record: `classic { color = gold, reflection = 0.3, shine = 60 }`",
     ),
+    Foreign("fisheye", "", "the cameras are `perspective`, `orthographic` and `window`"),
     Foreign("float", "", "there is one kind of numbers, `Number`; nothing has to be converted"),
     Foreign("fmod", "", "the rest of a division is `a % b`, with spaces around the `%`"),
     Foreign("foldl", "fold", ""),
     Foreign("foldr", "fold", "`fold step start list` goes through a list from the left"),
     Foreign("for", "", "a list of many is a comprehension: `[ f i | i <- [0 .. 9] ]`"),
     Foreign("foreach", "", "a list of many is a comprehension: `[ f i | i <- [0 .. 9] ]`"),
+    Foreign("forward", "", "a direction is a vector: `(0, 0, -1)`"),
     Foreign("frac", "fract", ""),
+    Foreign("frame", "", "a scene is a function of the time in seconds: `scene t = { ... }`"),
     Foreign("fun", "", "a function is `\\x -> x + 1`, or a definition with a parameter"),
     Foreign("function", "", "a function is `\\x -> x + 1`, or a definition with a parameter"),
+    Foreign("glass", "", "glass is `classic { transparency = 0.9, ior = 1.5, reflection = 0.1 }`"),
     Foreign("head", "", "the first element is `at 0 list`"),
+    Foreign(
+        "height_field",
+        "",
+        "there is no height_field yet; the shapes are `sphere`, `plane`, `cube`, `box`, `mesh` and `triangles`",
+    ),
+    Foreign(
+        "heightfield",
+        "",
+        "there is no heightfield yet; the shapes are `sphere`, `plane`, `cube`, `box`, `mesh` and `triangles`",
+    ),
     Foreign("id", "identity", ""),
     Foreign("int", "", "there is one kind of numbers; `floor x` drops what follows the point"),
     Foreign("inversesqrt", "", "write `1 / sqrt x`"),
+    Foreign(
+        "isosurface",
+        "",
+        "there is no isosurface yet; the shapes are `sphere`, `plane`, `cube`, `box`, `mesh` and `triangles`",
+    ),
     Foreign("lambda", "", "a function is `\\x -> x + 1`"),
+    Foreign("lambert", "classic", ""),
+    Foreign(
+        "lathe",
+        "",
+        "there is no lathe yet; the shapes are `sphere`, `plane`, `cube`, `box`, `mesh` and `triangles`",
+    ),
+    Foreign("left", "", "it is `-right`"),
     Foreign("len", "", "the number of elements is `count list`, the length of a vector `length v`"),
+    Foreign("length_of", "length", ""),
     Foreign("lerp", "mix", ""),
     Foreign("light_source", "point", "a lamp is `point { position = ..., intensity = ... }`"),
     Foreign("lightsource", "point", "a lamp is `point { position = ..., intensity = ... }`"),
@@ -92,7 +154,10 @@ const FOREIGN: &[Foreign] = &[
     Foreign("map_range", "remap", ""),
     Foreign("material", "classic", "a material is `classic { color = ... }`"),
     Foreign("math", "", "functions of numbers need no prefix: `sin x`, `sqrt x`"),
+    Foreign("matte", "classic", ""),
     Foreign("merge", "union", ""),
+    Foreign("metal", "", "a mirror is `classic { reflection = 0.8, color = silver }`"),
+    Foreign("mirror", "", "a mirror is `classic { reflection = 0.8 }`"),
     Foreign("mod", "", "the rest of a division is `a % b`, with spaces around the `%`"),
     Foreign("modulo", "", "the rest of a division is `a % b`, with spaces around the `%`"),
     Foreign("new", "", "nothing has to be made new: `sphere { radius = 1 }` is a value"),
@@ -114,20 +179,46 @@ const FOREIGN: &[Foreign] = &[
     ),
     Foreign("object", "", "a shape with its material is simply the shape: `sphere { material = ... }`"),
     Foreign("otherwise", "", "cases end with `else`, or with `_ ->` in a match"),
+    Foreign("panorama", "", "the cameras are `perspective`, `orthographic` and `window`"),
+    Foreign("panoramic", "", "the cameras are `perspective`, `orthographic` and `window`"),
+    Foreign("phong", "classic", ""),
     Foreign(
         "pigment",
         "",
         "a colour, or a function of a hit, goes straight into a material: `classic { color = ... }`",
     ),
+    Foreign("pinhole", "", "the cameras are `perspective`, `orthographic` and `window`"),
     Foreign("pointlight", "point", ""),
     Foreign("point_light", "point", ""),
     Foreign("pow", "", "a power is written `a ^ b`"),
     Foreign("power", "", "a power is written `a ^ b`"),
     Foreign("print", "", "`show x` turns a value into text; nothing can be printed from inside a scene"),
+    Foreign(
+        "prism",
+        "",
+        "there is no prism yet; the shapes are `sphere`, `plane`, `cube`, `box`, `mesh` and `triangles`",
+    ),
+    Foreign("product", "", "a product is `fold (\\a b -> a * b) 1 list`"),
     Foreign("putstrln", "", "nothing can be printed from inside a scene"),
+    Foreign(
+        "pyramid",
+        "",
+        "there is no pyramid yet; the shapes are `sphere`, `plane`, `cube`, `box`, `mesh` and `triangles`",
+    ),
+    Foreign(
+        "quad",
+        "",
+        "a flat face is `triangles { points = [(-1, 0, 0), (1, 0, 0), (1, 1, 0), (-1, 1, 0)], faces = [[0, 1, 2, 3]] }`, a thin plate `box { size = (2, 1, 0.01) }`",
+    ),
     Foreign("radians", "", "angles are in radians everywhere; one in degrees is written `30deg`"),
     Foreign("rand", "random", "`random seed i` is the random number i of a seed: the same at every run"),
     Foreign("range", "", "a range is `[0 .. n - 1]`, its last element included"),
+    Foreign(
+        "rectangle",
+        "",
+        "a flat face is `triangles { points = [(-1, 0, 0), (1, 0, 0), (1, 1, 0), (-1, 1, 0)], faces = [[0, 1, 2, 3]] }`, a thin plate `box { size = (2, 1, 0.01) }`",
+    ),
+    Foreign("reduce", "fold", "`fold step start list` goes through a list from the left"),
     Foreign("repeat", "", "write `[ x | _ <- [1 .. n] ]`"),
     Foreign("replicate", "", "write `[ x | _ <- [1 .. n] ]`"),
     Foreign(
@@ -147,20 +238,53 @@ const FOREIGN: &[Foreign] = &[
     Foreign("square", "", "a square is `x ^ 2`; a solid with equal sides is `cube { size = 1 }`"),
     Foreign("str", "show", ""),
     Foreign("subtract", "difference", "to cut one shape out of another: `difference a b`"),
+    Foreign("sumof", "sum", ""),
+    Foreign(
+        "sun",
+        "directional",
+        "a light from far away, such as the sun, is `directional { direction = (-1, -3, -1) }`",
+    ),
+    Foreign(
+        "superellipsoid",
+        "",
+        "there is no superellipsoid yet; the shapes are `sphere`, `plane`, `cube`, `box`, `mesh` and `triangles`",
+    ),
     Foreign("switch", "", "cases are written `match x { 0 -> a, _ -> b }`"),
     Foreign("tail", "", "all but the first element are `drop 1 list`"),
     Foreign("tau", "turn", "a whole turn in radians is `turn`"),
+    Foreign(
+        "tetrahedron",
+        "",
+        "there is no tetrahedron yet; the shapes are `sphere`, `plane`, `cube`, `box`, `mesh` and `triangles`",
+    ),
+    Foreign(
+        "text",
+        "",
+        "there is no text yet; the shapes are `sphere`, `plane`, `cube`, `box`, `mesh` and `triangles`",
+    ),
     Foreign(
         "texture",
         "",
         "a colour, or a function of a hit, goes straight into a material: `classic { color = ... }`",
     ),
+    Foreign("thin_lens", "", "the cameras are `perspective`, `orthographic` and `window`"),
+    Foreign("thinlens", "", "the cameras are `perspective`, `orthographic` and `window`"),
     Foreign("this", "", "there are no objects with methods; fields are read by `value.field`"),
+    Foreign("time", "", "the time in seconds is the parameter of the scene: `scene t = { ... }`"),
+    Foreign(
+        "torus",
+        "",
+        "there is no torus yet; the shapes are `sphere`, `plane`, `cube`, `box`, `mesh` and `triangles`",
+    ),
     Foreign("tostring", "show", ""),
-    Foreign("torus", "", "there is no torus yet; the shapes are `sphere`, `plane`, `cube` and `box`"),
     Foreign("transform", "", "use `translate`, `rotate`, `scale`, `stretch` or `matrix`"),
-    Foreign("triangle", "", "there is no triangle yet; the shapes are `sphere`, `plane`, `cube` and `box`"),
+    Foreign(
+        "triangle",
+        "",
+        "a triangle is `triangles { points = [(0, 0, 0), (1, 0, 0), (0, 1, 0)], faces = [[0, 1, 2]] }`",
+    ),
     Foreign("trunc", "floor", ""),
+    Foreign("turbulance", "turbulence", ""),
     Foreign(
         "undefined",
         "",
@@ -180,7 +304,63 @@ const FOREIGN: &[Foreign] = &[
     Foreign("vcross", "cross", ""),
     Foreign("where", "", "names for intermediate values come first: `let name = ... in ...`"),
     Foreign("while", "", "a loop is a function that calls itself, or `iterate max until step start`"),
+    Foreign(
+        "x",
+        "",
+        "axes are `right` (x), `up` (y) and `back` (z); the parts of a vector v are `v.x`, `v.y` and `v.z`",
+    ),
+    Foreign(
+        "y",
+        "",
+        "axes are `right` (x), `up` (y) and `back` (z); the parts of a vector v are `v.x`, `v.y` and `v.z`",
+    ),
+    Foreign(
+        "z",
+        "",
+        "axes are `right` (x), `up` (y) and `back` (z); the parts of a vector v are `v.x`, `v.y` and `v.z`",
+    ),
     Foreign("zip", "", "`zipWith f a b` goes through two lists at once"),
+    Foreign("π", "pi", ""),
+    Foreign("τ", "turn", ""),
+];
+
+/// Colours that have a name elsewhere (those of CSS, and a few more), in alphabetical order.
+const COLORS: &[(&str, &str)] = &[
+    ("amber", "#ffbf00"),
+    ("aqua", "#00ffff"),
+    ("beige", "#f5f5dc"),
+    ("bronze", "#cd7f32"),
+    ("chocolate", "#d2691e"),
+    ("coral", "#ff7f50"),
+    ("cream", "#fffdd0"),
+    ("crimson", "#dc143c"),
+    ("darkblue", "#00008b"),
+    ("darkgray", "#a9a9a9"),
+    ("darkgreen", "#006400"),
+    ("darkgrey", "#a9a9a9"),
+    ("fuchsia", "#ff00ff"),
+    ("gray", "#808080"),
+    ("hotpink", "#ff69b4"),
+    ("indigo", "#4b0082"),
+    ("khaki", "#f0e68c"),
+    ("lavender", "#e6e6fa"),
+    ("lightblue", "#add8e6"),
+    ("lightgray", "#d3d3d3"),
+    ("lightgrey", "#d3d3d3"),
+    ("lime", "#00ff00"),
+    ("magenta", "#ff00ff"),
+    ("maroon", "#800000"),
+    ("navy", "#000080"),
+    ("olive", "#808000"),
+    ("orchid", "#da70d6"),
+    ("plum", "#dda0dd"),
+    ("purple", "#800080"),
+    ("salmon", "#fa8072"),
+    ("skyblue", "#87ceeb"),
+    ("steelblue", "#4682b4"),
+    ("teal", "#008080"),
+    ("tomato", "#ff6347"),
+    ("turquoise", "#40e0d0"),
 ];
 
 /// The name that was probably meant. Names of one letter are near to nothing.
@@ -192,11 +372,50 @@ pub(super) fn near<'n>(name: &str, names: impl Iterator<Item = &'n str>) -> Opti
     nearest(name, names.filter(|other| !is_short(other)))
 }
 
+/// What is known about the place of a name that means nothing.
+pub(super) struct Around<'a> {
+    pub(super) module: &'a LoadedModule,
+    /// The names that are bound around it.
+    pub(super) locals: &'a [&'a str],
+    /// The values of which its place takes one, where there are so few.
+    pub(super) choices: &'a [&'a str],
+    /// Whether it is called with arguments.
+    pub(super) is_called: bool,
+}
+
 /// The complaint about a name that means nothing.
-pub(super) fn name(name: &str, span: Span, module: &LoadedModule, locals: &[&str]) -> Diagnostic {
+pub(super) fn name(name: &str, span: Span, around: &Around<'_>) -> Diagnostic {
+    let module = around.module;
     let error = Diagnostic::error("unknown-name", format!("there is no `{name}` here"), span, "not defined");
+    if let Some(near) = near(name, around.choices.iter().copied()) {
+        return error.with_suggestion(span, near, format!("did you mean `{near}`?"));
+    }
+    if let [_, ..] = around.choices {
+        return error.with_help(format!("what can stand here: {}", listed(around.choices)));
+    }
+    if matches!(name, "deg" | "degree" | "degrees" | "rad") && !around.is_called {
+        return error.with_help(
+            "the unit of an angle directly follows its digits, without a space: `30deg`; of any other value it is a \
+             factor: `angle * 1deg`",
+        );
+    }
+    if let Some(qualified) = qualified_home(name, module) {
+        let text = format!("it is in an import with a name of its own: `{qualified}`");
+        return error.with_suggestion(span, qualified, text);
+    }
+    if let Some((word, surplus)) = defined_with_word(name, module) {
+        let message =
+            format!("`{word} {name} = ...` defines a function `{word}`, whose parameter is `{name}`");
+        let error = error.with_secondary(surplus, "a definition begins with its name").with_note(message);
+        return error.with_suggestion(surplus, "", format!("leave out `{word}`"));
+    }
     if let Some(foreign) = foreign(name) {
         return suggest_foreign(error, span, foreign);
+    }
+    let lower = name.to_lowercase();
+    if let Some((_, color)) = COLORS.iter().find(|(name, _)| *name == lower.replace('_', "")) {
+        let text = format!("no colour of that name is known; the usual {name} is `{color}`:");
+        return error.with_suggestion(span, *color, text);
     }
     if let Some(prefix) = name.strip_suffix("deg").or_else(|| name.strip_suffix("rad"))
         && prefix.parse::<f64>().is_ok()
@@ -204,13 +423,9 @@ pub(super) fn name(name: &str, span: Span, module: &LoadedModule, locals: &[&str
         return error.with_help("`deg` directly follows the digits of a number");
     }
     let all = module.scope.all();
-    let known = locals.iter().copied().chain(all.iter().map(|(name, _)| &**name));
+    let known = around.locals.iter().copied().chain(all.iter().map(|(name, _)| &**name));
     if let Some(near) = near(name, known) {
         return error.with_suggestion(span, near, format!("did you mean `{near}`?"));
-    }
-    if let Some(qualified) = qualified_home(name, module) {
-        let text = format!("it is in an import with a name of its own: `{qualified}`");
-        return error.with_suggestion(span, qualified, text);
     }
     if let Some(constructor) = field_of(name) {
         let text = format!(
@@ -219,7 +434,10 @@ pub(super) fn name(name: &str, span: Span, module: &LoadedModule, locals: &[&str
         );
         return error.with_help(text);
     }
-    error.with_help(format!("define it somewhere in this file, for example: `{name} = 1`"))
+    let example = if around.is_called { format!("{name} x = ...") } else { format!("{name} = ...") };
+    error.with_help(format!(
+        "define it on a line of its own in this file, `{example}`; what there is already is listed in the reference"
+    ))
 }
 
 /// The complaint about the name of a hit in a value that is no function of one.
@@ -242,6 +460,17 @@ fn suggest_foreign(error: Diagnostic, span: Span, foreign: &Foreign) -> Diagnost
         (here, "") => error.with_suggestion(span, here, format!("it is called `{here}` here")),
         (here, help) => error.with_suggestion(span, here, format!("it is called `{here}` here: {help}")),
     }
+}
+
+/// The word of another language in `const name = ...`, and its place with the space after it.
+fn defined_with_word<'m>(name: &str, module: &'m LoadedModule) -> Option<(&'m str, Span)> {
+    module.syntax.definitions.iter().find_map(|definition| {
+        let PatternKind::Name(word) = &definition.target.kind else { return None };
+        let first = definition.parameters.first()?;
+        let is_it = matches!(&first.kind, PatternKind::Name(parameter) if **parameter == *name);
+        let surplus = Span::new(definition.target.span.start, first.span.start);
+        (is_it && is_put_before_definitions(word)).then_some((&**word, surplus))
+    })
 }
 
 /// `p.gold`, where `gold` is defined by an import `as p`.

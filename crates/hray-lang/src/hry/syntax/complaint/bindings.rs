@@ -126,7 +126,10 @@ impl Parser<'_> {
     fn is_povray(&self, first: usize) -> bool {
         use SyntaxKind as S;
         let kind = |after: usize| self.kind_of(first + after);
-        kind(2) == S::Less || kind(2) == S::Name && matches!(kind(3), S::Less | S::OpenBrace)
+        let is_axis = matches!(self.text_of(first + 2), "x" | "y" | "z") && kind(3) == S::Comma;
+        matches!(kind(2), S::Less | S::From)
+            || kind(2) == S::Name && matches!(kind(3), S::Less | S::OpenBrace)
+            || is_axis
     }
 
     /// `let` before a definition at the top.
@@ -136,6 +139,40 @@ impl Parser<'_> {
         let error = Diagnostic::error("definition", message, self.here(), "not expected here");
         self.report(error.with_suggestion(span, "", "remove it"));
         self.is_quiet = true;
+    }
+
+    /// `x = a, b` at the top, where the value begins with token `body`.
+    pub(in super::super) fn commas_in_definition(&mut self, body: usize) {
+        let here = self.here();
+        let mut last = self.at;
+        while self.tokens.get(last + 1).is_some_and(|next| !next.starts_line) {
+            last += 1;
+        }
+        let takes_list = matches!(self.text_of(body), "group" | "concat" | "sum" | "count" | "reverse");
+        let first = if takes_list { body + 1 } else { body };
+        let span = self.span_of(first).to(self.span_of(last));
+        let is_last = last == self.at;
+        let message = "a comma stands outside of brackets";
+        let error = Diagnostic::error("unexpected", message, here, "not expected here");
+        let error = match self.slice(span) {
+            _ if is_last => {
+                error.with_suggestion(here, "", "definitions are not separated by commas; remove it")
+            }
+            Some(text) => {
+                let help = "several values are a list, in brackets (a vector is written in parentheses):";
+                error.with_suggestion(span, format!("[{text}]"), help)
+            }
+            None => error.with_help("several values are a list, in brackets: `[a, b]`"),
+        };
+        self.report(error);
+    }
+
+    /// Whether a statement of POV-Ray begins here.
+    pub(in super::super) fn begins_povray(&self) -> bool {
+        self.is(SyntaxKind::Name)
+            && self.starts_line()
+            && self.kind_ahead(1) == SyntaxKind::OpenBrace
+            && self.is_povray(self.at)
     }
 
     /// `;` after a definition.

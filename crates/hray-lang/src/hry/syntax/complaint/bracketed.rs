@@ -4,6 +4,7 @@ use super::super::kind::SyntaxKind;
 use super::super::parser::{Mark, Parser};
 use super::quoted;
 use crate::diagnostic::{Diagnostic, Span};
+use crate::hry::library::CONSTRUCTORS;
 
 impl Parser<'_> {
     /// What stands where a comma or the closing bracket belongs. True where the next element can be read as it is.
@@ -74,6 +75,18 @@ impl Parser<'_> {
                     "expected `,` or `)`",
                 );
                 error.with_help("give the type of a function on a line above it: `f : Number -> Number`")
+            }
+            S::Dot
+                if self.kind_ahead(1) == S::Name
+                    && self.tokens.get(self.at + 1).is_some_and(|next| next.spaced)
+                    && self.at.checked_sub(1).is_some_and(|before| self.kind_of(before) == S::Name) =>
+            {
+                let (first, second) = (self.at - 1, self.at + 1);
+                let message = "functions are not joined by `.`";
+                let error = Diagnostic::error("foreign-operator", message, here, "not an operator of hry");
+                let whole = self.span_of(first).to(self.span_of(second));
+                let joined = format!("{} >> {}", self.text_of(second), self.text_of(first));
+                error.with_suggestion(whole, joined, "`f >> g` does `f` first, then `g`:")
             }
             S::Dot => {
                 let message = "a field directly follows its value, without a space";
@@ -218,6 +231,31 @@ impl Parser<'_> {
             let error = Diagnostic::error("missing-equals", message, value, "expected `=` before this");
             return error.with_suggestion(Span::at(self.span_of(first).end), " =", "add `=`");
         }
+        let is_part = self.kind_of(first) == SyntaxKind::Name
+            && self.kind_of(first + 1) == SyntaxKind::Dot
+            && self.kind_of(first + 2) == SyntaxKind::Name
+            && self.kind_of(first + 3) == SyntaxKind::Define;
+        if is_part {
+            let name = self.text_of(first);
+            let message = format!("`{name}` is set as a whole, not part by part");
+            let span = self.span_of(first).to(self.span_of(first + 2));
+            let error = Diagnostic::error(code, message, span, "expected the name of a field");
+            return error.with_help(format!("write the whole vector, as in `{name} = (1, 0, 0)`"));
+        }
+        let owner = open.checked_sub(1).filter(|owner| self.kind_of(*owner) == SyntaxKind::Name);
+        let owner = owner.and_then(|owner| {
+            CONSTRUCTORS.iter().find(|constructor| constructor.name == self.text_of(owner))
+        });
+        if let Some(constructor) = owner {
+            let message = format!("what `{}` takes has names", constructor.name);
+            let error = Diagnostic::error(
+                "fields-without-names",
+                message,
+                self.span_of(first),
+                "expected a field, `name = value`",
+            );
+            return error.with_help(format!("for example: {}", constructor.example));
+        }
         let message = format!("expected a field, found {}", self.described(first));
         let error =
             Diagnostic::error(code, message, self.span_of(first), "a field is written `name = value`");
@@ -326,6 +364,47 @@ impl Parser<'_> {
         error.with_suggestion(self.gap(), " =", "add `=`")
     }
 
+    /// Fields in the parentheses that began with token `first`, which are closed now.
+    pub(in super::super) fn fields_in_parentheses(&mut self, first: usize) {
+        let last = self.at.saturating_sub(1);
+        let span = self.span_of(first).to(self.span_of(last));
+        let name = first.checked_sub(1).map_or("", |name| self.text_of(name));
+        let message = format!("the fields of {} stand in braces, not in parentheses", quoted(name));
+        let error = Diagnostic::error("braces", message, span, "expected `{ ... }`");
+        let inner = self.slice(Span::new(self.span_of(first).end, self.span_of(last).start));
+        let error = match inner.filter(|_| self.kind_of(last) == SyntaxKind::CloseParen) {
+            Some(inner) => {
+                let space = if self.tokens.get(first).is_some_and(|open| open.spaced) { "" } else { " " };
+                error.with_suggestion(span, format!("{space}{{ {} }}", inner.trim()), "write braces")
+            }
+            None => error.with_help("write `name { field = value }`"),
+        };
+        self.report(error);
+    }
+
+    /// `for x in list` of a comprehension of Python.
+    pub(in super::super) fn for_of_python(&mut self) {
+        let here = self.here();
+        let message = "there is no `for` in hry; a comprehension has a `|` and `<-`";
+        let (name, last) = (self.at + 1, self.at + 6);
+        let is_range = self.kind_of(self.at + 2) == SyntaxKind::InKeyword
+            && self.text_of(self.at + 3) == "range"
+            && self.kind_of(self.at + 4) == SyntaxKind::OpenParen
+            && self.kind_of(last) == SyntaxKind::CloseParen;
+        let name = self.text_of(name);
+        let (end, written) = if is_range {
+            let count = self.text_of(self.at + 5);
+            (last, format!("| {name} <- [0 .. {count} - 1]"))
+        } else {
+            (self.at + 2, format!("| {name} <-"))
+        };
+        let span = here.to(self.span_of(end));
+        let error = Diagnostic::error("foreign-word", message, span, "not how a comprehension is written");
+        self.report(error.with_suggestion(span, written, "write"));
+        // The `in` is part of it.
+        self.failed_at = Some(self.at + 2);
+    }
+
     pub(in super::super) fn long_body(&mut self) {
         let error = Diagnostic::error(
             "comprehension",
@@ -349,6 +428,9 @@ impl Parser<'_> {
 
     /// `x in list`
     pub(in super::super) fn in_for_from(&mut self) {
+        if self.failed_at == Some(self.at) {
+            return;
+        }
         let message = "the elements of a list are taken with `<-`";
         let error = Diagnostic::error("comprehension", message, self.here(), "expected `<-`");
         let error = error.with_suggestion(self.here(), "<-", "write `<-`");

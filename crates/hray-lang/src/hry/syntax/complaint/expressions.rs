@@ -242,6 +242,19 @@ impl Parser<'_> {
         }
     }
 
+    /// The parameters of a function stood in the parentheses that began with token `first`.
+    pub(in super::super) fn parameters_in_parentheses(&mut self, first: usize) {
+        let names: Vec<&str> = (first + 1..self.at)
+            .filter(|token| self.kind_of(*token) == SyntaxKind::Name)
+            .map(|token| self.text_of(token))
+            .collect();
+        let written = format!("\\{} ->", names.join(" "));
+        let span = self.span_of(first).to(self.here());
+        let message = "a function begins with a `\\`, and its parameters have no parentheses";
+        let error = Diagnostic::error("missing-backslash", message, span, "not how a function is written");
+        self.report(error.with_suggestion(span, written, "write"));
+    }
+
     /// `->` without a `\` before its parameters.
     pub(in super::super) fn no_backslash(&self) -> Diagnostic {
         let mut first = self.at;

@@ -123,6 +123,11 @@ const WORDS: &[Word] = &[
     },
 ];
 
+/// Whether other languages put this word before a definition.
+pub(crate) fn is_put_before_definitions(text: &str) -> bool {
+    WORDS.iter().any(|word| word.place == Place::First && word.words.contains(&text))
+}
+
 impl Parser<'_> {
     /// What a word of another language, not far before the current token, has to do with an error here.
     pub(in super::super) fn foreign_word(&self) -> Option<Diagnostic> {

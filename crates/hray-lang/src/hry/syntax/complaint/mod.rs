@@ -5,15 +5,16 @@ mod bracketed;
 pub(crate) mod brackets;
 pub(crate) mod characters;
 mod expressions;
-mod foreign;
+pub(crate) mod foreign;
 mod found;
 mod imports;
 pub(crate) mod numbers;
 mod patterns;
+mod povray;
 mod values;
 
 use super::parser::MOST_ERRORS;
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{Diagnostic, Span};
 
 /// Puts errors in their order, without those that others explain, and no more than anybody reads.
 pub(crate) fn tidy(text: &str, base: usize, mut errors: Vec<Diagnostic>) -> Vec<Diagnostic> {
@@ -29,6 +30,23 @@ pub(crate) fn tidy(text: &str, base: usize, mut errors: Vec<Diagnostic>) -> Vec<
                 || error.primary.span.end < base + start && error.code != "unclosed-bracket"
         });
     }
+    // A text that is not closed takes the closing brackets of its line with it.
+    let swallowed: Vec<Span> = errors
+        .iter()
+        .filter(|error| error.code == "unclosed-text")
+        .map(|error| error.primary.span)
+        .filter(|span| {
+            let inside = text.get(span.start.saturating_sub(base)..span.end.saturating_sub(base));
+            inside.is_some_and(|inside| inside.contains([')', ']', '}']))
+        })
+        .collect();
+    errors.retain(|error| {
+        let place = error.suggestion.as_ref().map_or(error.primary.span, |suggestion| suggestion.span);
+        error.code != "unclosed-bracket"
+            || !swallowed
+                .iter()
+                .any(|text| error.primary.span.start < text.start && text.start <= place.start)
+    });
     let mut kept: Vec<Diagnostic> = Vec::new();
     for error in errors {
         // What is inside the place of another error may say it better.

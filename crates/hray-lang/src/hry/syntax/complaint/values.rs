@@ -69,6 +69,14 @@ impl Parser<'_> {
                 );
                 return error.with_suggestion(span, word, format!("write `{word}`"));
             }
+            let is_prefix =
+                parser.kind_ahead(1) == SyntaxKind::Dot && parser.kind_ahead(2) == SyntaxKind::Name;
+            if is_prefix && matches!(name, "Math" | "THREE" | "Vec3" | "Color" | "Number") {
+                let message = format!("the functions of hry need no `{name}.` before them");
+                let whole = Span::new(span.start, parser.span_of(parser.at + 2).start);
+                let error = Diagnostic::error(code, message, span, "expected the name of a function");
+                return error.with_suggestion(whole, "", "leave it out");
+            }
             let message = format!("{} begins with a capital, but only types do", quoted(name));
             let error = Diagnostic::error(code, message, span, "expected the name of a value");
             let lower = lower_case(name);
@@ -133,7 +141,8 @@ impl Parser<'_> {
         let message = "this is the notation of POV-Ray; in hry the fields of a thing have names";
         let label = format!("what {} takes is written `{{ field = value, ... }}`", quoted(word));
         let error = Diagnostic::error("povray", message, self.span_of(name), label);
-        let help = match word {
+        let translated = self.translated(name);
+        let help = translated.as_deref().unwrap_or(match word {
             "sphere" => {
                 "write `sphere { center = (0, 1, 0), radius = 2, material = classic { color = #ff0000 } }`"
             }
@@ -148,9 +157,16 @@ impl Parser<'_> {
             _ => {
                 "for example `sphere { center = (0, 1, 0), radius = 2, material = classic { color = #ff0000 } }`"
             }
-        };
+        });
         let note =
             "what is to be seen stands in one record: `scene = { lights = [ ... ], objects = [ ... ] }`";
+        let error = if help.contains('(') {
+            error.with_note(
+                "the z axis points towards you here, and away from you in POV-Ray: its sign changes",
+            )
+        } else {
+            error
+        };
         error.with_note(note).with_help(help)
     }
 
@@ -415,6 +431,14 @@ impl Parser<'_> {
                 "for the remainder of a division, put a space before the `%`",
             );
         }
+        if let ("number", Some((span, words))) = (what, self.components_apart(function))
+            && (operand != "-" || words.len() == 3)
+        {
+            let message = format!("{} numbers stand here without anything between them", words.len());
+            let error = Diagnostic::error("missing-comma", message, span, "not one value");
+            let text = "a vector is written in parentheses, with commas:";
+            return error.with_suggestion(span, format!("({})", words.join(", ")), text);
+        }
         if what == "number" && operand == "-" {
             let minus = self.here();
             let span = Span::new(minus.start, self.span_of(self.at + 1).start);
@@ -440,12 +464,56 @@ impl Parser<'_> {
         }
         let message = format!("a {what} cannot be applied to {}", self.found());
         let error = error("not-a-function", message);
+        if let ("number", Some(gap)) = (what, self.minus_apart(Self::token_of(function.start()))) {
+            let error = error.with_note("a minus with a space on both sides subtracts");
+            return error.with_suggestion(
+                gap,
+                "",
+                "for a negative argument, write the minus directly before the digits:",
+            );
+        }
         match what {
             "number" if operand == "mod" => error.with_help("the remainder of a division is `a % b`"),
             "number" if operand == "div" => error.with_help("the whole quotient is `floor (a / b)`"),
+            "number" if self.is(SyntaxKind::Name) && self.kind_ahead(1) == SyntaxKind::OpenBrace => {
+                error.with_help("is the number one too many, or a comma missing?")
+            }
             "number" => error.with_suggestion(gap, " *", "for a product, write the `*`"),
             _ => error,
         }
+    }
+}
+
+impl Parser<'_> {
+    /// `1 2 3` or `0 -1 2` from the literal `function` on: two or three numbers side by side, and no more.
+    fn components_apart(&self, function: Done) -> Option<(Span, Vec<String>)> {
+        let first = Self::token_of(function.start());
+        let (mut token, mut words) = (first, Vec::new());
+        while words.len() <= 3 {
+            let sign = usize::from(self.kind_of(token) == SyntaxKind::Minus && !words.is_empty());
+            if self.kind_of(token + sign) != SyntaxKind::Number {
+                break;
+            }
+            words.push(self.slice(self.span_of(token).to(self.span_of(token + sign)))?.to_owned());
+            token += sign + 1;
+        }
+        let ends =
+            !matches!(self.kind_of(token), SyntaxKind::Name | SyntaxKind::OpenParen | SyntaxKind::Color);
+        let is_argument =
+            first.checked_sub(1).is_some_and(|before| self.kind_of(before) != SyntaxKind::Define);
+        let span = self.span_of(first).to(self.span_of(token.checked_sub(1)?));
+        ((2..=3).contains(&words.len()) && ends && !is_argument).then_some((span, words))
+    }
+
+    /// The space between a minus and the number at a token, in `f 1 - 1.6 x`.
+    fn minus_apart(&self, number: usize) -> Option<Span> {
+        let minus = number.checked_sub(1).filter(|minus| self.kind_of(*minus) == SyntaxKind::Minus)?;
+        let is_after_value = matches!(
+            self.kind_of(minus.checked_sub(1)?),
+            SyntaxKind::Number | SyntaxKind::Name | SyntaxKind::CloseParen | SyntaxKind::Color
+        );
+        let gap = Span::new(self.span_of(minus).end, self.span_of(number).start);
+        (is_after_value && gap.start < gap.end).then_some(gap)
     }
 }
 

@@ -26,7 +26,7 @@ impl Parser<'_> {
             let (before, errors) = (self.at, self.errors.len());
             self.layout_here();
             // What follows an error and is no definition is still part of that.
-            self.is_quiet = !is_well && !self.begins_item();
+            self.is_quiet = !is_well && !self.begins_item() && !self.begins_povray();
             self.item(&mut promise);
             is_well = self.errors.len() == errors && !self.is_quiet;
             self.is_quiet = false;
@@ -121,7 +121,16 @@ impl Parser<'_> {
         }
         self.kept_promise(promise, Some(first));
         let body = if self.parameters(first, is_top) {
-            self.inside(Around::Binding, Self::expr)
+            let body = self.mark();
+            let done = self.inside(Around::Binding, Self::expr);
+            if is_top && self.open == 0 && self.is(SyntaxKind::Comma) {
+                // Part of a list, so its type means nothing.
+                self.commas_in_definition(Self::token_of(body));
+                self.skip_binding(Set::of(&[]));
+                self.error_expr(body)
+            } else {
+                done
+            }
         } else {
             let body = self.mark();
             self.skip_binding(Set::of(&[SyntaxKind::InKeyword, SyntaxKind::Comma]));

@@ -30,6 +30,12 @@ impl Parser<'_> {
     /// `(expression)`, `(x, y)`, `(x, y, z)`, `(expression : type)`
     pub(super) fn parenthesised(&mut self) -> Done {
         let (start, first) = (self.mark(), self.at);
+        if self.is_lambda_of_others() {
+            return self.lambda_of_others();
+        }
+        if self.holds_fields() {
+            return self.record_in_parentheses(start, first);
+        }
         let outer = self.open();
         let (mut count, mut height) = (0, 0);
         let mut kind = SyntaxKind::ParenExpr;
@@ -57,6 +63,60 @@ impl Parser<'_> {
         self.expr_node(kind, start, height)
     }
 
+    /// Whether the parentheses here hold `name = value`, after the name of what takes it.
+    fn holds_fields(&self) -> bool {
+        use SyntaxKind as S;
+        let is_after_name = self.at.checked_sub(1).is_some_and(|before| self.kind_of(before) == S::Name);
+        let is_field = match self.kind_ahead(2) {
+            S::Define => true,
+            S::Colon => matches!(self.kind_ahead(3), S::Number | S::Text | S::Color | S::Minus),
+            _ => false,
+        };
+        is_after_name && is_field && self.kind_ahead(1) == S::Name && self.around != Around::Test
+    }
+
+    /// `sphere (radius = 1)`, read as if it had braces.
+    fn record_in_parentheses(&mut self, start: Mark, first: usize) -> Done {
+        let outer = self.open();
+        let mut height = 0;
+        self.elements(SyntaxKind::CloseParen, |parser| height = height.max(parser.field()));
+        self.close(SyntaxKind::CloseParen, outer);
+        self.fields_in_parentheses(first);
+        self.expr_node(SyntaxKind::RecordExpr, start, height)
+    }
+
+    /// Whether `(a, b) =>` or `(a, b) ->` begins here.
+    fn is_lambda_of_others(&self) -> bool {
+        use SyntaxKind as S;
+        let mut token = self.at + 1;
+        while self.kind_of(token) == S::Name {
+            token += 1;
+            if self.kind_of(token) == S::Comma {
+                token += 1;
+            }
+        }
+        let is_parameters = token > self.at + 1 && self.kind_of(token) == S::CloseParen;
+        is_parameters && self.around != Around::Arm && self.kind_of(token + 1) == S::Arrow
+    }
+
+    /// `(a, b) => body`, read as the function that it is.
+    fn lambda_of_others(&mut self) -> Done {
+        let (start, first) = (self.mark(), self.at);
+        let outer = self.open();
+        while !self.is(SyntaxKind::CloseParen) && !self.is_end() {
+            if self.is(SyntaxKind::Name) {
+                self.pattern(false);
+            } else {
+                self.bump();
+            }
+        }
+        self.close(SyntaxKind::CloseParen, outer);
+        self.parameters_in_parentheses(first);
+        self.eat(SyntaxKind::Arrow);
+        let body = self.expr();
+        self.expr_node(SyntaxKind::LambdaExpr, start, body.height)
+    }
+
     pub(in super::super) fn kind_of(&self, token: usize) -> SyntaxKind {
         self.tokens.get(token).map_or(SyntaxKind::End, |token| token.kind)
     }
@@ -76,12 +136,23 @@ impl Parser<'_> {
             }
             if parser.is(SyntaxKind::DotDot) && kind == SyntaxKind::ListExpr {
                 kind = parser.range_end(count, &mut height);
+            } else if parser.is_for_of_python() && kind == SyntaxKind::ListExpr {
+                parser.for_of_python();
+                kind = parser.qualifiers(count, &mut height);
             } else if parser.is(SyntaxKind::Bar) && kind == SyntaxKind::ListExpr {
                 kind = parser.qualifiers(count, &mut height);
             }
         });
         self.close(SyntaxKind::CloseBracket, outer);
         self.expr_node(kind, start, height)
+    }
+
+    /// Whether `for name in` begins here.
+    pub(super) fn is_for_of_python(&self) -> bool {
+        self.is(SyntaxKind::Name)
+            && self.text_of(self.at) == "for"
+            && self.kind_ahead(1) == SyntaxKind::Name
+            && self.kind_ahead(2) == SyntaxKind::InKeyword
     }
 
     /// `.. last]` after one or two elements.
@@ -137,6 +208,7 @@ impl Parser<'_> {
                     | SyntaxKind::CloseBrace
                     | SyntaxKind::Colon
                     | SyntaxKind::Semicolon
+                    | SyntaxKind::Equal
             ),
             kind => !kind.is_keyword() || self.kind_ahead(1) != SyntaxKind::Define,
         }
@@ -163,7 +235,8 @@ impl Parser<'_> {
 
     fn fail_at_record(&mut self, start: Mark) {
         self.fail(|parser| parser.not_a_record(start));
-        self.is_quiet |= self.errors.last().is_some_and(|error| error.code == "braces");
+        self.is_quiet |=
+            self.errors.last().is_some_and(|error| matches!(error.code, "braces" | "fields-without-names"));
         self.skip_until(Set::of(&[SyntaxKind::Comma]));
         self.eat(SyntaxKind::Comma);
     }

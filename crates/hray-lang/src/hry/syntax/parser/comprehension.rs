@@ -25,6 +25,14 @@ impl Parser<'_> {
         if self.is(SyntaxKind::LetKeyword) {
             return self.let_qualifier();
         }
+        if self.kind_ahead(1) == SyntaxKind::InKeyword && self.is(SyntaxKind::Name) {
+            self.pattern(false);
+            self.in_for_from();
+            self.bump();
+            let list = self.inside(Around::Condition, Self::expr);
+            self.node(SyntaxKind::Generator, start);
+            return list.height + 1;
+        }
         if leads_to(self.tokens, self.at, SyntaxKind::From, false).is_some() {
             self.pattern(false);
             if !self.is(SyntaxKind::From) {

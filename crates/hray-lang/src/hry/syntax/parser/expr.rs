@@ -73,7 +73,7 @@ impl Parser<'_> {
     fn begins_argument(&self, kind: SyntaxKind) -> bool {
         match kind {
             SyntaxKind::OpenBrace => self.around != Around::Subject,
-            SyntaxKind::Name => !self.begins_next(),
+            SyntaxKind::Name => !self.begins_next() && !self.is_for_of_python(),
             SyntaxKind::OpenParen | SyntaxKind::OpenBracket => !self.begins_arm(),
             SyntaxKind::Number | SyntaxKind::Text | SyntaxKind::TrueKeyword | SyntaxKind::FalseKeyword => {
                 !self.begins_arm()

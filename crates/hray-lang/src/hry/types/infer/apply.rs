@@ -42,7 +42,14 @@ impl<'p> Infer<'p> {
     ) -> Ty {
         let found = match self.constructor_of(callee) {
             Some(constructor) => self.constructor_call(expr, constructor, callee, arguments),
-            None => self.function_call(callee, arguments),
+            None => {
+                let errors = self.diagnostics.len();
+                let found = self.function_call(callee, arguments);
+                if self.diagnostics.len() == errors {
+                    self.odd_literals(callee, arguments);
+                }
+                found
+            }
         };
         self.settle(expr, found, expected)
     }
@@ -115,17 +122,62 @@ impl<'p> Infer<'p> {
         let mut complaints =
             new.filter(|(_, error)| error.code == "wrong-argument" && error.primary.span == argument.span);
         let Some((complaint, _)) = complaints.next() else { return Some(()) };
+        if self.is_function_after_pipe(call, argument) {
+            self.suggest_pipe(complaint, argument);
+            return None;
+        }
         if self.is_call_without_parentheses(call, index) {
-            self.suggest_parentheses(complaint, call.arguments, index);
+            let count = self.arguments_within(call, index);
+            self.suggest_parentheses(complaint, call.arguments, index, count);
+            return None;
+        }
+        if matches!(argument.kind, ExprKind::List(_))
+            && matches!(self.quoted(call.callee.span), Some("union" | "intersection" | "difference"))
+        {
+            // That the second shape is missing is no news.
             return None;
         }
         let found = self.refused_type(argument, from);
+        if self.is_list_apart(call, index, found, from) {
+            self.suggest_list(complaint, call.arguments);
+            return None;
+        }
         if let Some(parts) = self.components_apart(call, index, found, from) {
             self.suggest_vector(complaint, parts);
             return None;
         }
         call.refused = Some(Refused { found, wanted: from, complaint });
         Some(())
+    }
+
+    /// Whether `group a b` probably meant `group [a, b]`: a function of one list gets several of its elements.
+    fn is_list_apart(&self, call: &Call<'_, 'p>, index: usize, found: Ty, wanted: Ty) -> bool {
+        let store = &self.types.store;
+        let Node::List(of) = store.get(wanted) else { return false };
+        let piped = call.arguments.iter().any(|argument| argument.span.end <= call.callee.span.start);
+        index == 0
+            && call.arguments.len() > store.parameters(call.whole).0.len()
+            && !piped
+            && store.head(found).is_some_and(|head| store.heads(*of).has(head))
+    }
+
+    /// Whether `x |> f a g b` probably meant `x |> f a |> g b`.
+    fn is_function_after_pipe(&self, call: &Call<'_, 'p>, argument: &Expr) -> bool {
+        let piped = call.arguments.iter().any(|argument| argument.span.end <= call.callee.span.start);
+        piped
+            && argument.span.start > call.callee.span.end
+            && matches!(argument.kind, ExprKind::Name(_))
+            && self.names.uses.get(&argument.span.start).is_some_and(|meaning| self.is_function(*meaning))
+    }
+
+    /// Of `f g x y`, where `g` is a function: how many of the arguments, itself included, are its call.
+    fn arguments_within(&self, call: &Call<'_, 'p>, index: usize) -> usize {
+        let rest = call.arguments.len() - index;
+        let takes = self.types.store.parameters(call.whole).0.len();
+        // What is left over once the function has all of its arguments.
+        let left = takes.saturating_sub(index + 1);
+        let within = rest.saturating_sub(left);
+        if within > 1 { within } else { rest }
     }
 
     /// Whether `f 0 1 0` probably meant `f (0, 1, 0)`: the arguments that would be the components.

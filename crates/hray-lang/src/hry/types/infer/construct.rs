@@ -48,6 +48,10 @@ impl<'p> Infer<'p> {
             for rest in surplus {
                 self.expr(rest, None);
             }
+            // What was wrong with the record explains what follows it: `sphere {}.translate (0, 1, 0)`.
+            if matches!(&argument.kind, ExprKind::Field { .. }) {
+                return Ty::ERROR;
+            }
             let error = self.surplus_for_constructor(constructor, callee, arguments, made);
             self.report(error);
         }

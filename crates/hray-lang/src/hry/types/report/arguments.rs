@@ -53,6 +53,20 @@ impl<'p> Infer<'p> {
             (ExprKind::Vector(_) | ExprKind::Color(_) | ExprKind::List(_), _) => {
                 error.with_help("is a comma missing before the argument?")
             }
+            (_, ExprKind::List(index))
+                if self.types.store.head(whole) == Some(Head::List)
+                    && index.len() == 1
+                    && callee.span.end == argument.span.start =>
+            {
+                match (self.quoted(callee.span), index.first().and_then(|index| self.quoted(index.span))) {
+                    (Some(list), Some(index)) => error.with_suggestion(
+                        callee.span.to(argument.span),
+                        format!("(at {} {list})", as_index(index)),
+                        "an element of a list, counted from 0, is taken by `at`:",
+                    ),
+                    _ => error.with_help("element i of a list, counted from 0, is `at i list`"),
+                }
+            }
             _ if self.types.store.head(whole) == Some(Head::List) => {
                 error.with_help("element i of a list, counted from 0, is `at i list`")
             }
@@ -155,8 +169,9 @@ impl<'p> Infer<'p> {
         complaint: usize,
         arguments: &[&'p Expr],
         index: usize,
+        count: usize,
     ) {
-        let rest = arguments.get(index..).unwrap_or_default();
+        let rest = arguments.get(index..index + count).unwrap_or_default();
         let (Some(first), Some(last)) = (rest.first(), rest.last()) else { return };
         let span = first.span.to(last.span);
         let Some(text) = self.quoted(span) else { return };
@@ -165,6 +180,40 @@ impl<'p> Infer<'p> {
             error.help = None;
             let text = "an argument that is itself a call needs parentheses:".to_owned();
             error.suggestion = Some(Suggestion { span, replacement, text });
+        }
+    }
+
+    /// Adds to a complaint about `g` in `x |> f a g b` that a `|>` is missing before it.
+    pub(in crate::hry::types) fn suggest_pipe(&mut self, complaint: usize, argument: &Expr) {
+        if let Some(error) = self.diagnostics.get_mut(complaint) {
+            error.help = None;
+            error.notes.clear();
+            error.suggestion = Some(Suggestion {
+                span: Span::at(argument.span.start),
+                replacement: "|> ".into(),
+                text: "to pass the result on to the next function, write `|>` again:".into(),
+            });
+        }
+    }
+
+    /// Adds to a complaint that the arguments are the elements of a list.
+    pub(in crate::hry::types) fn suggest_list(&mut self, complaint: usize, arguments: &[&'p Expr]) {
+        let words: Option<Vec<&str>> =
+            arguments.iter().map(|argument| Some(bare(self.quoted(argument.span)?))).collect();
+        let (Some(first), Some(last)) = (arguments.first(), arguments.last()) else { return };
+        let span = first.span.to(last.span);
+        let Some(error) = self.diagnostics.get_mut(complaint) else { return };
+        let text = "several are written as a list, in brackets:".to_owned();
+        match words {
+            Some(words) => {
+                let replacement = format!("[{}]", words.join(", "));
+                error.help = None;
+                error.suggestion = Some(Suggestion { span, replacement, text });
+            }
+            None => {
+                error.suggestion = None;
+                error.help = Some("several are written as a list, in brackets: `[a, b]`".into());
+            }
         }
     }
 
@@ -223,4 +272,29 @@ impl<'p> Infer<'p> {
             None => error.with_help("arguments are written one after another, without commas: `f x y`"),
         }
     }
+}
+
+/// Text as it is written where an argument stands.
+fn as_index(text: &str) -> String {
+    let plain = text.chars().all(|c| c.is_alphanumeric() || c == '_' || c == '.');
+    if plain { text.into() } else { format!("({text})") }
+}
+
+/// Text without the parentheses around the whole of it.
+fn bare(text: &str) -> &str {
+    let Some(inner) = text.strip_prefix('(').and_then(|text| text.strip_suffix(')')) else { return text };
+    let mut open = 0_i32;
+    for c in inner.chars() {
+        open += match c {
+            '(' => 1,
+            ')' => -1,
+            // A comma makes a vector of it.
+            ',' if open == 0 => return text,
+            _ => 0,
+        };
+        if open < 0 {
+            return text;
+        }
+    }
+    inner
 }

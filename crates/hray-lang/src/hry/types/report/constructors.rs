@@ -223,7 +223,10 @@ impl<'p> Infer<'p> {
                     .map_or(error.clone(), |head| self.hint(error, expr, span, ty, Ty::alone(head), None));
             };
             if !store.heads(*given).has(store.head(taken).unwrap_or(Head::Hit)) {
-                return match self.other_or_missing(expr, ty, taken) {
+                return match self
+                    .other_or_missing(expr, ty, taken)
+                    .or_else(|| self.unfinished(expr, ty, field))
+                {
                     Some(help) => error.with_help(help),
                     None => self.function_hint(error, span, ty, taken),
                 };
@@ -261,6 +264,32 @@ impl<'p> Infer<'p> {
         ))
     }
 
+    /// For a call that lacks arguments and would then be what the field takes.
+    fn unfinished(&self, expr: Option<&'p Expr>, ty: Ty, field: &'static FieldSpec) -> Option<String> {
+        let (callee, arguments) = crate::hry::program::application(expr?);
+        let store = &self.types.store;
+        let (parameters, result) = store.parameters(ty);
+        let fits = store.head(result).is_some_and(|head| Allowed::of(field).heads.has(head));
+        let name = self.quoted(callee.span)?;
+        let is_varying = parameters.iter().any(|parameter| store.head(*parameter) == Some(Head::Hit));
+        if arguments.is_empty() || !fits || is_varying {
+            return None;
+        }
+        let shown: Vec<String> = parameters.iter().map(|ty| format!("`{}`", self.show(*ty))).collect();
+        let count = super::super::infer::counted(parameters.len(), "argument");
+        let call = self.quoted(expr?.span)?;
+        let varying = if name != "rgb"
+            && field.varies
+            && parameters.len() == 1
+            && store.head(*parameters.first()?) == Some(Head::Number)
+        {
+            format!("; to let it vary over the surface: `\\h -> {call} h.p.y`")
+        } else {
+            String::new()
+        };
+        Some(format!("`{name}` still needs {count} ({}){varying}", shown.join(", ")))
+    }
+
     fn function_hint(&self, error: Diagnostic, span: Span, ty: Ty, taken: Ty) -> Diagnostic {
         let first = self.types.store.parameters(ty).0.first().copied();
         let demanded = first.map(|first| self.demanded_fields(first)).unwrap_or_default();
@@ -282,7 +311,7 @@ impl<'p> Infer<'p> {
             (Some(Head::Vec2), Ty::HIT) => {
                 self.place_of_hit(error, span, "h.uv", "the function takes a vector of two; to give it the surface coordinates of the hit:")
             }
-            (Some(Head::Hit), _) => error.with_help("what lies behind everything has no hit: the function gets the direction one looks in, a vector"),
+            (Some(Head::Hit), _) => error.with_help("what lies behind everything has no hit: the function gets the direction one looks in, a vector, as in `background = \\d -> mix white #4f86c6 d.y`"),
             (Some(first), Ty::HIT) => error.with_help(format!("a function for this field takes a hit, and not {}", first.words())),
             _ => error,
         }

@@ -5,7 +5,7 @@ use super::super::kind::Head;
 use super::super::scheme::Access;
 use super::super::store::{Node, Ty};
 use super::super::unknown::near;
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{Diagnostic, Span};
 use crate::hry::ast::Expr;
 use crate::hry::program::listed;
 
@@ -56,6 +56,22 @@ impl<'p> Infer<'p> {
         access: Access,
         origin: Origin,
     ) -> Diagnostic {
+        let is_method = access == Access::Read
+            && origin.via.is_none()
+            && self
+                .root
+                .and_then(|root| self.modules.get(root))
+                .is_some_and(|module| module.scope.get(name).is_some());
+        if let (
+            true,
+            Node::Record(_) | Node::Alone(Head::Shape | Head::Material | Head::Light | Head::Camera),
+        ) = (is_method, self.types.store.get(ty))
+        {
+            // The dot stands directly before the name.
+            let dot = Span::new(origin.detail.start.saturating_sub(1), origin.detail.start);
+            let text = format!("`{name}` is a function; a value is passed on to one with `|>`:");
+            return error.with_suggestion(dot, " |> ", text);
+        }
         let names: Vec<String> = match self.types.store.get(ty) {
             Node::Record(fields) => fields.iter().map(|field| field.0.to_string()).collect(),
             Node::Alone(Head::Hit) => ["p", "world", "normal", "uv", "time"].map(String::from).to_vec(),

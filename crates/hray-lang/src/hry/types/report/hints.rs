@@ -42,9 +42,21 @@ impl<'p> Infer<'p> {
                 "a list of one is written in brackets:",
             );
         }
+        if let (Node::List(of), Some(vector @ (Head::Vec2 | Head::Vec3))) = (store.get(found), expected_head)
+            && store.heads(*of).has(Head::Number)
+        {
+            return self.list_for_vector(error, expr, span, vector);
+        }
+        if let (Node::Record(_), Some(vector @ (Head::Vec2 | Head::Vec3))) = (store.get(found), expected_head)
+        {
+            return self.record_for_vector(error, expr, span, vector);
+        }
         if let (Node::List(of), Some(expected)) = (store.get(found), expected_head)
             && store.head(*of) == Some(expected)
         {
+            if let Some((two, text)) = self.two_of_a_list(expr, why) {
+                return error.with_suggestion(span, two, text);
+            }
             return self.list_for_one(error, expected, why);
         }
         if let (Some(why), Node::Rigid { .. }) = (why, store.get(expected)) {
@@ -192,6 +204,65 @@ impl<'p> Infer<'p> {
         self.suggest(error.with_note(each), span, with, "to make one shape of them, which moves as a whole:")
     }
 
+    /// `difference [a, b]`
+    fn two_of_a_list(&self, expr: Option<&'p Expr>, why: Option<Why<'p>>) -> Option<(String, &'static str)> {
+        let (Some(Why::Argument { callee, index: 0, .. }), ExprKind::List(items)) = (why, &expr?.kind) else {
+            return None;
+        };
+        let name = self.quoted(callee.span)?;
+        let ("union" | "intersection" | "difference") = name else { return None };
+        let words: Option<Vec<String>> =
+            items.iter().map(|item| Some(self.as_argument(item, self.quoted(item.span)?))).collect();
+        let words = words.filter(|words| words.len() >= 2)?;
+        let (last, before) = words.split_last()?;
+        let first = before.iter().cloned().reduce(|all, next| format!("({name} {all} {next})"))?;
+        Some((format!("{first} {last}"), "it takes two shapes, one after the other:"))
+    }
+
+    /// `[0, 1, 0]` for `(0, 1, 0)`
+    fn list_for_vector(
+        &self,
+        error: Diagnostic,
+        expr: Option<&'p Expr>,
+        span: Span,
+        vector: Head,
+    ) -> Diagnostic {
+        let (count, example) = if vector == Head::Vec2 { (2, "(x, y)") } else { (3, "(x, y, z)") };
+        let text = "a vector is written in parentheses:";
+        match (expr.map(|expr| &expr.kind), self.quoted(span)) {
+            (Some(ExprKind::List(items)), Some(quoted)) if items.len() == count => {
+                let inner = quoted.trim_start_matches('[').trim_end_matches(']');
+                error.with_suggestion(span, format!("({inner})"), text)
+            }
+            _ => error.with_help(format!("{text} `{example}`")),
+        }
+    }
+
+    /// `{ x = 0, y = 1, z = 0 }` for `(0, 1, 0)`
+    fn record_for_vector(
+        &self,
+        error: Diagnostic,
+        expr: Option<&'p Expr>,
+        span: Span,
+        vector: Head,
+    ) -> Diagnostic {
+        let names: &[&str] = if vector == Head::Vec2 { &["x", "y"] } else { &["x", "y", "z"] };
+        let text = "a vector is written in parentheses, without names:";
+        if let Some(ExprKind::Record(fields)) = expr.map(|expr| &expr.kind)
+            && fields.len() == names.len()
+        {
+            let value = |name: &&str| {
+                let field = fields.iter().find(|field| &*field.name.text == *name)?;
+                self.quoted(field.value.span)
+            };
+            let words: Option<Vec<&str>> = names.iter().map(value).collect();
+            if let Some(words) = words {
+                return error.with_suggestion(span, format!("({})", words.join(", ")), text);
+            }
+        }
+        error.with_help(format!("{text} `({})`", names.join(", ")))
+    }
+
     fn list_for_one(&self, error: Diagnostic, expected: Head, why: Option<Why<'p>>) -> Diagnostic {
         let help = match (expected, why) {
             (Head::Shape, Some(Why::Field { .. } | Why::Item { .. })) => {
@@ -242,14 +313,18 @@ impl<'p> Infer<'p> {
             }
             (H::Text, H::Color) => error.with_help("colours have no quotes: `#ff8800`, `rgb 1 0.5 0`, or the name of a definition"),
             (H::Number, H::Color) => self.grey(error, expr, span, why),
-            (H::Number, H::Vec3) => error.with_help("a vector is written `(x, y, z)`"),
+            (H::Number, H::Vec3) => self.number_for_vector(error, expr, span, why),
             (H::Number, H::Vec2) => error.with_help("a vector is written `(x, y)`"),
             (H::Vec2, H::Vec3) => error.with_help("the third component is missing: `(x, y, z)`"),
             (H::Vec3, H::Vec2) => error.with_help("it has one component too many; `v.xy` drops the third of a vector v"),
-            (H::Vec2 | H::Vec3, H::Number) => self.vector_for_number(error, found, why),
+            (H::Vec2 | H::Vec3, H::Number) => self.vector_for_number(error, span, found, why),
             (H::Color, H::Number) if matches!(why, Some(Why::Branch { .. } | Why::Arm { .. } | Why::Item { .. })) => {
                 self.grey_before(error, why)
             }
+            (H::Color, H::Number) if self.is_called(why, "mix") => {
+                error.with_help("`mix` takes two colours or two numbers: as colours, 0 is `black` and 1 is `white`")
+            }
+            (H::Number, H::Hit) if matches!(why, Some(Why::Argument { .. })) => error,
             (H::Color, H::Number) => error.with_help("a colour has the numbers `c.r`, `c.g` and `c.b`"),
             (H::Number, H::Text) => self.shown(error, expr, span, why),
             (H::Text, H::Number) => error.with_help("numbers have no quotes"),
@@ -265,7 +340,64 @@ impl<'p> Infer<'p> {
         }
     }
 
-    fn vector_for_number(&self, error: Diagnostic, found: Head, why: Option<Why<'p>>) -> Diagnostic {
+    /// Whether the value is an argument of that function.
+    fn is_called(&self, why: Option<Why<'p>>, name: &str) -> bool {
+        matches!(why, Some(Why::Argument { callee, .. }) if self.quoted(callee.span) == Some(name))
+    }
+
+    /// `size = 2` of a box, `stretch 2`
+    fn number_for_vector(
+        &self,
+        error: Diagnostic,
+        expr: Option<&'p Expr>,
+        span: Span,
+        why: Option<Why<'p>>,
+    ) -> Diagnostic {
+        let is_literal = expr.is_some_and(|expr| matches!(expr.kind, ExprKind::Number(_)));
+        let is_size = match why {
+            Some(Why::Field { field, .. }) => field.name == "size",
+            _ => self.is_called(why, "stretch"),
+        };
+        let error = match why {
+            Some(Why::Field { constructor, .. }) if constructor.name == "box" && is_size => {
+                error.with_note("where all sides are equal, `cube { size = 2 }` does it, too")
+            }
+            Some(Why::Argument { callee, .. }) if is_size => {
+                let text = "to change the size in all directions alike:";
+                return error.with_suggestion(callee.span, "scale", text);
+            }
+            _ => error,
+        };
+        if is_literal && is_size {
+            return self.suggest(error, span, |n| format!("({n}, {n}, {n})"), "along x, y and z:");
+        }
+        error.with_help("a vector is written `(x, y, z)`")
+    }
+
+    fn vector_for_number(
+        &self,
+        error: Diagnostic,
+        span: Span,
+        found: Head,
+        why: Option<Why<'p>>,
+    ) -> Diagnostic {
+        match why {
+            Some(Why::Argument { callee, .. })
+                if found == Head::Vec3 && self.quoted(callee.span) == Some("scale") =>
+            {
+                let text = "`scale` changes the size in all directions alike; along x, y and z:";
+                return error.with_suggestion(callee.span, "stretch", text);
+            }
+            Some(Why::Field { constructor, field, .. })
+                if found == Head::Vec3 && constructor.name == "cube" && field.name == "size" =>
+            {
+                let size = self.quoted(span).unwrap_or("(1, 2, 1)");
+                return error.with_help(format!(
+                    "all sides of a cube are equal; with different ones it is a box: `box {{ size = {size} }}`"
+                ));
+            }
+            _ => {}
+        }
         let components = if found == Head::Vec2 { "`.x` and `.y`" } else { "`.x`, `.y` and `.z`" };
         match why {
             Some(Why::Order(..)) => {
@@ -319,6 +451,17 @@ impl<'p> Infer<'p> {
 
     fn record_for(&self, error: Diagnostic, span: Span, expected: Head, why: Option<Why<'p>>) -> Diagnostic {
         let constructors = constructors_of(expected);
+        if let ([], Some(Why::Argument { callee, whole, .. })) = (constructors.as_slice(), why) {
+            let name = self.quoted(callee.span).unwrap_or("f");
+            let count = self.types.store.parameters(whole).0.len();
+            let words: Vec<String> = (0..count)
+                .map(|index| self.parameter_name(callee, index).unwrap_or_else(|| "x".into()))
+                .collect();
+            return error.with_help(format!(
+                    "only constructors take fields by name; `{name}` takes its values one after another: `{name} {}`",
+                    words.join(" ")
+                ));
+        }
         match constructors.as_slice() {
             [] => error,
             [one] => self.suggest(

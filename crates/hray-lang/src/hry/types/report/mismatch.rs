@@ -3,7 +3,9 @@
 use super::super::infer::{Allowed, Infer, Why, written_operator};
 use super::super::store::{Clash, Node, Ty};
 use crate::diagnostic::{Diagnostic, Span};
-use crate::hry::ast::Expr;
+use crate::hry::ast::{Expr, ExprKind};
+use crate::hry::program::{Global, standard};
+use crate::hry::types::names::Meaning;
 
 /// How a mismatch is put: its code, the sentence, and what is to be shown beside it.
 struct Told {
@@ -35,6 +37,13 @@ impl<'p> Infer<'p> {
         clash: Clash,
     ) -> Diagnostic {
         if let Some(error) = self.special_clash(span, found, clash) {
+            let error = match (clash, self.hidden_by_itself(why)) {
+                (Clash::Infinite, Some(name)) => error.with_help(format!(
+                    "inside its own definition, `{name}` is that definition and not the library's `{name}`: give yours \
+                     another name"
+                )),
+                _ => error,
+            };
             return self.beside(error, why);
         }
         let told = self.told(found, expected, why);
@@ -47,6 +56,19 @@ impl<'p> Infer<'p> {
             error = error.with_note(note);
         }
         self.hint(error, expr, span, found, expected, Some(why))
+    }
+
+    /// The name of a function that is called, where the program's own definition hides one of the library.
+    fn hidden_by_itself(&self, why: Why<'p>) -> Option<&'p str> {
+        let Why::Argument { callee, .. } = why else { return None };
+        let ExprKind::Name(name) = &callee.kind else { return None };
+        let is_own = match self.names.uses.get(&callee.span.start) {
+            Some(Meaning::Global(Global::Definition { module, .. })) => {
+                self.modules.get(*module).is_some_and(|module| !module.is_standard)
+            }
+            _ => false,
+        };
+        (is_own && standard().names.contains_key(name)).then_some(name)
     }
 
     /// Clashes that are not about two types that differ.

@@ -5,6 +5,7 @@ mod constructors;
 mod demands;
 mod fields;
 mod hints;
+mod literals;
 mod mismatch;
 mod operands;
 mod ranges;

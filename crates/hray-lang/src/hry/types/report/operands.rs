@@ -84,6 +84,14 @@ impl<'p> Infer<'p> {
                 let name = self.quoted(expr.span).unwrap_or("f");
                 error.with_help(format!("it varies over a surface: calculate with its value at a hit, `\\h -> {name} h {word} ...`"))
             }
+            // `ball 1 - 2`
+            Node::Function(..)
+                if word == "-" && expr.span.end < span.start && matches!(expr.kind, ExprKind::Apply { .. }) =>
+            {
+                let error = error.with_note("a minus with a space on both sides subtracts");
+                let gap = Span::new(span.end, span.end + 1);
+                error.with_suggestion(gap, "", "for one more argument, which is negative:")
+            }
             Node::Function(..) => {
                 self.hint(error, Some(expr), expr.span, ty, Ty::NUMBER, None)
             }
