@@ -82,8 +82,7 @@ fn meaning(field: &FieldSpec) -> String {
     let range = match field.range {
         Range::Any => return field.doc.to_owned(),
         Range::Positive => "Greater than 0.".to_owned(),
-        Range::Radius | Range::Ior => "Greater than 0; otherwise hray warns.".to_owned(),
-        Range::Shine => "0 or greater; otherwise hray warns.".to_owned(),
+        Range::Radius => "Greater than 0; otherwise hray warns.".to_owned(),
         Range::Normal => "Not zero; otherwise hray warns.".to_owned(),
         Range::NonNegative => "0 or greater.".to_owned(),
         Range::Share => "From 0 to 1; beyond, hray warns.".to_owned(),

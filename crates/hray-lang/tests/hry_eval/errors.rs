@@ -30,7 +30,7 @@ oddities! {
     light_in_a_sphere: "scene = { lights = [point { position = (0, 5, 0) }], objects = [sphere {}, sphere { radius = 2 } |> translate (0, 5, 0)] }";
     camera_in_a_sphere: "scene = { lights = [point { position = (9, 9, 9) }], objects = [sphere { radius = 8 }] }";
     depth_of_nothing: "scene = { depth = -1, lights = [ambient {}], objects = [sphere {}] }";
-    negative_shine: "s = 2 - 5\nscene = { lights = [ambient {}], objects = [sphere { material = classic { shine = s, ior = s } }] }";
+    negative_shine: "s = 2 - 5\nscene = { lights = [ambient {}], objects = [sphere { material = classic { shine = s, ior = s, reflection = 0.1, transparency = 0.5 } }] }";
 }
 
 mistakes! {

@@ -77,7 +77,6 @@ mistakes! {
         javascript: "const ball = (r) => sphere { radius = r }\na = ball (Math.sqrt 2)";
         def: "def ball(r) = sphere { radius = r }\na = ball 2";
         grey_in_mix: "red = #ff0000\na = mix 0 red 0.5";
-        refraction: "a = classic { ior = 0, transparency = 1, shine = -3 }";
     }
 
     fields {

@@ -177,8 +177,6 @@ impl<'a> Machine<'a> {
             Range::Light => numbers.iter().any(|n| *n < 0.0).then_some("0 or greater"),
             Range::Radius => numbers.iter().any(|n| *n <= 0.0).then_some("greater than 0"),
             Range::Normal => numbers.iter().all(|n| *n == 0.0).then_some("not zero"),
-            Range::Ior => numbers.iter().any(|n| *n <= 0.0).then_some("greater than 0"),
-            Range::Shine => numbers.iter().any(|n| *n < 0.0).then_some("0 or greater"),
             _ => None,
         };
         if let Some(wanted) = odd {

@@ -3,7 +3,7 @@
 use super::machine::Machine;
 use crate::diagnostic::{Diagnostic, Span};
 use glam::DVec3;
-use hray_core::{Camera, Description, Light, MIN_DEPTH, Primitive, Scene, Shape};
+use hray_core::{Camera, Description, Field, Light, MIN_DEPTH, Material, Primitive, Scene, Shape};
 
 /// So many lights and objects are compared with each other at most.
 const MOST_LIGHTS: usize = 64;
@@ -18,6 +18,33 @@ pub(super) struct Places {
 }
 
 impl Machine<'_> {
+    /// Warns of odd numbers in a material, where they matter; its shine and its index of refraction are at these places.
+    pub(super) fn lint_material(&mut self, material: &Material, [shine, ior]: [Span; 2]) {
+        let has_highlight = match &material.highlight {
+            Some(highlight) => !highlight.is_zero(),
+            None => !material.reflection.is_zero(),
+        };
+        if let (Field::Constant(exponent), true) = (&material.shine, has_highlight)
+            && *exponent < 0.0
+        {
+            let message = format!("the exponent of the highlight is negative: {exponent}");
+            let label = "the highlight is strongest where it should be none";
+            self.warn(
+                Diagnostic::warning("negative-shine", message, shine, label)
+                    .with_help("10 is a broad and dull highlight, 200 a small and sharp one"),
+            );
+        }
+        if let (Field::Constant(index), false) = (&material.refractive_index, material.transmission.is_zero())
+            && *index <= 0.0
+        {
+            let message = format!("the material lets light through, but its index of refraction is {index}");
+            self.warn(
+                Diagnostic::warning("refraction-index", message, ior, "expected one above 0")
+                    .with_help("1 does not bend light, water has 1.33, glass 1.5, diamond 2.42"),
+            );
+        }
+    }
+
     /// Warns of what is odd about a scene.
     pub(super) fn lint(&mut self, description: &Description, places: Places) {
         let scene = &description.scene;

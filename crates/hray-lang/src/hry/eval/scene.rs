@@ -363,7 +363,8 @@ impl Machine<'_> {
             machine.varying(&given)
         };
         let color = or_default(self, "color")?;
-        Ok(Material {
+        let place = |name: &str| given(name).map_or(value.span, |given| given.span);
+        let material = Material {
             texture: self.texture(&color)?,
             reflection: field(self, "reflection")?,
             shine: field(self, "shine")?,
@@ -375,6 +376,8 @@ impl Machine<'_> {
                 Some(given) => self.bump(&given)?,
                 None => None,
             },
-        })
+        };
+        self.lint_material(&material, [place("shine"), place("ior")]);
+        Ok(material)
     }
 }

@@ -93,8 +93,7 @@ fn conditions(field: &FieldSpec) -> String {
 fn range(range: Range) -> Option<String> {
     Some(match range {
         Range::Any => return None,
-        Range::Positive | Range::Radius | Range::Ior => "greater than 0".into(),
-        Range::Shine => "0 or greater".into(),
+        Range::Positive | Range::Radius => "greater than 0".into(),
         Range::NonNegative => "0 or greater".into(),
         Range::Share => "from 0 to 1".into(),
         Range::Between(from, to) => format!("between {from} and {}", pi(to)),

@@ -236,8 +236,7 @@ pub const CONSTRUCTORS: &[Constructor] = &[
                 "40",
                 "Exponent of the highlight: 10 is broad and dull, 200 small and sharp.",
             )
-            .varying()
-            .range(Range::Shine),
+            .varying(),
             with_default(
                 "highlight",
                 T::Number,
@@ -258,8 +257,7 @@ pub const CONSTRUCTORS: &[Constructor] = &[
                 "Index of refraction of the inside: 1 does not bend light, water 1.33, glass 1.5, diamond 2.42. Used \
                  only where something is transparent.",
             )
-            .varying()
-            .range(Range::Ior),
+            .varying(),
             with_default("glow", T::Color, "", "Light it gives off by itself; none where it is left out.").varying(),
             with_default(
                 "bump",

@@ -82,10 +82,6 @@ pub enum Range {
     Positives,
     /// A radius: greater than 0, where others are legal, as in classic scenes, but surely not meant: a warning.
     Radius,
-    /// An index of refraction: greater than 0, where others are legal but surely not meant: a warning.
-    Ior,
-    /// The exponent of a highlight: 0 or greater, where others are legal, as in classic scenes: a warning.
-    Shine,
     /// A normal: not zero, where zero is legal, as in classic scenes, but surely not meant: a warning.
     Normal,
 }

@@ -100,16 +100,6 @@ fn problem(range: Range, value: f64) -> Option<Problem> {
             let text = format!("is not greater than 0: {value}");
             (value <= 0.0).then_some(Problem::Warning("sphere-radius", text, help))
         }
-        Range::Ior => {
-            let help = "1 does not bend light, water has 1.33, glass 1.5, diamond 2.42";
-            let text = format!("is not greater than 0: {value}");
-            (value <= 0.0).then_some(Problem::Warning("unusual-value", text, help))
-        }
-        Range::Shine => {
-            let help = "10 is a broad and dull highlight, 200 a small and sharp one";
-            let text = format!("is negative: {value}, so the highlight is strongest where it should be none");
-            (value < 0.0).then_some(Problem::Warning("negative-shine", text, help))
-        }
         Range::Positive | Range::Positives => error(value <= 0.0, format!("{value} is not greater than 0")),
         Range::NonNegative => error(value < 0.0, format!("{value} is below 0")),
         Range::Between(low, high) => error(
