@@ -123,7 +123,9 @@ pub(crate) fn told_format(arguments: &RenderArgs, output: &Path) -> Result<Pictu
             )));
         }
         (None, Err(error)) => {
-            return Err(Failure::Usage(format!("{error}; or name the format with --format")));
+            return Err(Failure::Usage(format!(
+                "{error}; or name the format with --format. An animation (--frames) may also be .gif or .apng"
+            )));
         }
     };
     if !arguments.ascii {

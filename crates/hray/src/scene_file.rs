@@ -274,6 +274,14 @@ fn blame_values_that_were_set(
     assets: &FolderAssets,
 ) {
     let Some(first) = diagnostics.iter_mut().find(|diagnostic| diagnostic.is_error()) else { return };
+    // An error in what was set itself shows the place anyway.
+    let is_told = program
+        .sources
+        .file(first.primary.span.start)
+        .is_some_and(|file| options.set.iter().any(|(name, _)| file.name == format!("--set {name}")));
+    if is_told {
+        return;
+    }
     let (Some(set), Some(root)) = (options.set.first(), program.sources.files().first()) else { return };
     let mut found = Vec::new();
     let plain = Program::load(name, path, root.text.clone(), &[], assets, &mut found);
