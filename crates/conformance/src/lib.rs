@@ -31,7 +31,7 @@ pub fn to_model(scene: &Scene) -> Option<model::Scene> {
             let plane = model::mk_plane((p.normal.x, p.normal.y, p.normal.z, p.offset));
             Some(model::Object::Plane(plane))
         }
-        Shape::Cuboid(_) | Shape::Csg(_) | Shape::Mesh(_) => None,
+        _ => None,
     };
     let objects = scene.primitives.iter().map(|primitive| {
         let material = &primitive.material;

@@ -44,7 +44,7 @@ pub(crate) fn run(arguments: &CheckArgs, console: &Console) -> Result<(), Failur
                     findings.0.extend(file.findings().0);
                 } else {
                     console.say(job::report(&file, console));
-                    if let Some(definitions) = file.module() {
+                    if let Some(definitions) = file.module().filter(|_| file.errors() == 0) {
                         let count = counted(definitions, "definition");
                         let name = Quoted(Path::new(&input.name())).to_string();
                         console.say(format_args!("{name} has no scene, only {count} for others to import\n"));

@@ -20,7 +20,7 @@ fn hint(error: &Error, arguments: &[OsString]) -> Option<String> {
     else {
         return None;
     };
-    if let Some(hint) = split_setting(unknown, arguments) {
+    if let Some(hint) = split_setting(unknown, arguments).or_else(|| split_size(unknown, arguments)) {
         return Some(hint);
     }
     let cli = Cli::command();
@@ -51,6 +51,15 @@ fn split_setting(unknown: &str, arguments: &[OsString]) -> Option<String> {
     let value = arguments.get(place + 2..)?.iter().find(|value| *value != "=")?.to_string_lossy();
     let value = value.trim_start_matches('=');
     Some(format!("a setting is one word: `--set {}={}`", name.escape_debug(), value.escape_debug()))
+}
+
+/// `--size 320 240`
+fn split_size(unknown: &str, arguments: &[OsString]) -> Option<String> {
+    let place = arguments.windows(3).position(|three| three[0] == "--size" && three[2] == unknown)?;
+    let width = arguments.get(place + 1)?.to_str()?;
+    let is_number = |text: &str| !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit());
+    (is_number(width) && is_number(unknown))
+        .then(|| format!("a size is one word: `--size {width}x{unknown}`"))
 }
 
 /// `hray render a.hry x.png`.

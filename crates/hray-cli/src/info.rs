@@ -133,6 +133,9 @@ fn objects(objects: &Objects) -> String {
         1 => kinds.push("1 box".to_owned()),
         n => kinds.push(format!("{} boxes", grouped(n as u64))),
     }
+    if objects.round > 0 {
+        kinds.push(format!("{} round", grouped(objects.round as u64)));
+    }
     match objects.meshes {
         0 => {}
         1 => kinds.push("1 mesh".to_owned()),

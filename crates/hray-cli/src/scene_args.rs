@@ -21,7 +21,7 @@ pub(crate) struct SceneArgs {
 /// How much an evaluation may take.
 #[derive(Args, Debug)]
 pub(crate) struct LimitArgs {
-    /// The most steps that working out the scene may take [default: 1000000000]
+    /// The most steps that working out the scene may take [default: 200000000]
     #[arg(long, value_name = "N", value_parser = values::steps, help_heading = "Scenes in hry")]
     pub eval_steps: Option<u64>,
     /// The most calls inside calls [default: 10000]

@@ -1,6 +1,6 @@
 //! What can be hit.
 
-use crate::{Mesh, Primitive};
+use crate::{Disc, Frustum, Mesh, Primitive, Torus};
 use glam::DVec3;
 use std::sync::Arc;
 
@@ -73,8 +73,26 @@ pub enum Shape {
     Plane(Plane),
     /// A box.
     Cuboid(Cuboid),
+    /// A truncated cone or cylinder.
+    Frustum(Arc<Frustum>),
+    /// A disc.
+    Disc(Arc<Disc>),
+    /// A torus.
+    Torus(Arc<Torus>),
     /// A solid made of two.
     Csg(Arc<Csg>),
     /// Triangles, which other primitives may share.
     Mesh(Arc<Mesh>),
+}
+
+impl Shape {
+    /// Whether it has an inside, so that it can be a part of solids.
+    #[must_use]
+    pub fn is_solid(&self) -> bool {
+        match self {
+            Self::Sphere(_) | Self::Plane(_) | Self::Cuboid(_) | Self::Torus(_) | Self::Csg(_) => true,
+            Self::Frustum(frustum) => frustum.is_capped,
+            Self::Disc(_) | Self::Mesh(_) => false,
+        }
+    }
 }

@@ -113,6 +113,8 @@ pub struct Objects {
     pub planes: usize,
     /// Boxes.
     pub boxes: usize,
+    /// Cylinders and cones, discs, tori.
+    pub round: usize,
     /// Solids made of others by constructive solid geometry.
     pub csg: usize,
     /// Triangle meshes; one that is placed many times counts each time.
@@ -127,6 +129,7 @@ impl Objects {
                 Shape::Sphere(_) => &mut objects.spheres,
                 Shape::Plane(_) => &mut objects.planes,
                 Shape::Cuboid(_) => &mut objects.boxes,
+                Shape::Frustum(_) | Shape::Disc(_) | Shape::Torus(_) => &mut objects.round,
                 Shape::Csg(_) => &mut objects.csg,
                 Shape::Mesh(_) => &mut objects.meshes,
             } += 1;
@@ -337,7 +340,7 @@ fn bounds(description: &Description) -> Option<Bounds> {
                 let center = transform.transform_point3(sphere.center);
                 Some((center - reach, center + reach))
             }
-            Shape::Plane(_) | Shape::Cuboid(_) | Shape::Csg(_) | Shape::Mesh(_) => None,
+            _ => None,
         })
         .reduce(|(min, max), (other_min, other_max)| (min.min(other_min), max.max(other_max)))
         .map(|(min, max)| Bounds { min: min.to_array(), max: max.to_array() })
@@ -394,7 +397,10 @@ mod tests {
         let spheres = sphere("(0.0,0.0,-50.0)", "0.5", "0.0") + &sphere("(30.0,0.0,-50.0)", "0.0", "0.5");
         let lights = "(ambientLight (0.1,0.1,0.1)) (pointLight (0.0,9.0,9.0) (1.0,1.0,1.0))";
         let summary = summary(2, &format!("{plane} {spheres}"), lights);
-        assert_eq!(summary.objects, Objects { total: 3, spheres: 2, planes: 1, boxes: 0, csg: 0, meshes: 0 });
+        assert_eq!(
+            summary.objects,
+            Objects { total: 3, spheres: 2, planes: 1, boxes: 0, round: 0, csg: 0, meshes: 0 }
+        );
         assert_eq!((summary.point_lights, summary.ambient_lights), (1, 1));
         assert_eq!((summary.materials.reflective, summary.materials.transparent), (1, 1));
         let textures: Vec<_> = summary.materials.textures.into_iter().collect();

@@ -88,7 +88,12 @@ fn write_primitive(out: &mut impl fmt::Write, primitive: &Primitive) -> fmt::Res
             let DVec3 { x, y, z } = plane.normal;
             write!(out, "plane ({},{},{},{})", Real(x), Real(y), Real(z), Real(plane.offset))?;
         }
-        Shape::Cuboid(_) | Shape::Csg(_) | Shape::Mesh(_) => return Err(CANNOT_SAY),
+        Shape::Cuboid(_)
+        | Shape::Frustum(_)
+        | Shape::Disc(_)
+        | Shape::Torus(_)
+        | Shape::Csg(_)
+        | Shape::Mesh(_) => return Err(CANNOT_SAY),
     }
     write!(out, " ) ( texture ( diff ")?;
     match texture {

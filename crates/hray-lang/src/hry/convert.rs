@@ -241,7 +241,12 @@ fn object(primitive: &Primitive, materials: &Materials) -> Option<Node> {
                 ("material", material),
             ],
         ),
-        Shape::Cuboid(_) | Shape::Csg(_) | Shape::Mesh(_) => return None,
+        Shape::Cuboid(_)
+        | Shape::Frustum(_)
+        | Shape::Disc(_)
+        | Shape::Torus(_)
+        | Shape::Csg(_)
+        | Shape::Mesh(_) => return None,
     })
 }
 

@@ -186,7 +186,7 @@ impl Side {
 fn hiding_planes(primitives: &[Primitive], window: &Window, lights: &[DVec3]) -> Vec<(usize, Side)> {
     let side = |(index, shape): (usize, &Shape)| match shape {
         Shape::Plane(plane) => Some((index, Side::new(plane, window, lights)?)),
-        Shape::Sphere(_) | Shape::Cuboid(_) | Shape::Csg(_) | Shape::Mesh(_) => None,
+        _ => None,
     };
     let mut planes: Vec<(usize, Side)> =
         shapes(primitives, true).filter_map(side).take(MOST_CANDIDATES).collect();
@@ -242,7 +242,7 @@ fn shape_bits(shape: &Shape) -> Option<(bool, [u64; 4])> {
     let (is_sphere, vector, number) = match shape {
         Shape::Sphere(sphere) => (true, sphere.center, sphere.radius),
         Shape::Plane(plane) => (false, plane.normal, plane.offset),
-        Shape::Cuboid(_) | Shape::Csg(_) | Shape::Mesh(_) => return None,
+        _ => return None,
     };
     Some((is_sphere, [vector.x, vector.y, vector.z, number].map(f64::to_bits)))
 }
@@ -256,7 +256,7 @@ fn check_lights(sink: &mut Sink<'_>, scene: &Scene, spans: &Spans, window: &Wind
     for (index, position) in lights.take(MOST_CANDIDATES) {
         let around = scene.primitives.iter().position(|primitive| match &primitive.shape {
             Shape::Sphere(sphere) => is_sane(sphere) && shuts_in(sphere, position, window),
-            Shape::Plane(_) | Shape::Cuboid(_) | Shape::Csg(_) | Shape::Mesh(_) => false,
+            _ => false,
         });
         let Some(around) = around else { continue };
         sink.report("light-inside-sphere", |words| {

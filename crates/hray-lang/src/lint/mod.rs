@@ -50,6 +50,7 @@ const VALUES: &[Lint] = &[
         "camera-inside-sphere",
         "The camera is inside a sphere that lets no light through, and no light is in there: the picture is dark.",
     ),
+    lint("no-objects", "The scene has no objects, so only the background is seen."),
     lint(
         "not-read",
         "A file of meshes has something that is not taken over, such as images, or names a file that is not there.",

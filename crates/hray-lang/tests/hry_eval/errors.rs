@@ -26,6 +26,7 @@ macro_rules! oddities {
 }
 
 oddities! {
+    no_objects: "scene = { lights = [ambient {}] }";
     no_lights: "scene = { objects = [sphere {}] }";
     light_in_a_sphere: "scene = { lights = [point { position = (0, 5, 0) }], objects = [sphere {}, sphere { radius = 2 } |> translate (0, 5, 0)] }";
     camera_in_a_sphere: "scene = { lights = [point { position = (9, 9, 9) }], objects = [sphere { radius = 8 }] }";
@@ -39,6 +40,9 @@ mistakes! {
     radius_not_a_number: "scene = { objects = [sphere { radius = 0 / 0.0 + 1 }] }";
     root_of_a_negative_number: "scene = { objects = [sphere { radius = sqrt (0 - 1) }] }";
     infinite: "scene = { objects = [sphere { radius = exp 1000 }] }";
+    cylinder_of_no_length: "scene = { objects = [cylinder { from = (0, 1, 0) }] }";
+    thick_torus: "scene = { objects = [torus { radius = 1, tube = 2 }] }";
+    disc_in_a_solid: "scene = { objects = [difference (sphere {}) (disc {})] }";
     size_not_whole: "w = 640 / 7\nscene = { size = (w, 480) }";
     angle_without_deg: "a = 60\nscene = { camera = perspective { from = (0, 0, 5), fov = a } }";
     no_such_element: "scene = { objects = [sphere { radius = at 3 [1, 2, 3] }] }";

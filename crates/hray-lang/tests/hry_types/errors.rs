@@ -52,7 +52,7 @@ mistakes! {
         question: "a = sphere { radius = 1 > 2 ? 3 : 4 }";
         minus_apart: "ball x c = sphere { center = (x, 0, 0), material = classic { color = c } }\na = ball - 1.6 white\nb = ball 1 - 2";
         quote_not_closed: "a = { file = \"a.png, list = [1, (2)] }\nb = 1";
-        no_such_shape: "a = cone { radius = 1 }\nb = disc {}";
+        no_such_shape: "a = blob { radius = 1 }\nb = prism {}";
         no_such_camera: "a = fisheye { fov = 180deg }";
         colors: "a = purple\nb = darkGreen";
         time: "a = sphere {} |> rotate up (turn * time)";
@@ -77,6 +77,38 @@ mistakes! {
         javascript: "const ball = (r) => sphere { radius = r }\na = ball (Math.sqrt 2)";
         def: "def ball(r) = sphere { radius = r }\na = ball 2";
         grey_in_mix: "red = #ff0000\na = mix 0 red 0.5";
+    }
+
+    habits {
+        time_of_the_scene: "ball = sphere { center = (0, sin t, 0) }\nmovie t = ball";
+        two_minus_signs: "a = 3--2\nb = { radius = 3--2 }\nc = 1 --2 is a comment";
+        bytes_divided: "a = rgb 200 100 50 / 255";
+        diameter: "a = sphere { diameter = 3 }\nb = classic { roughness = 0.2, specular = 0.5 }";
+        part_of_a_record: "a = marble {}\nb = wood { light = brown, dark = black }\nc = tiles white black";
+        hit_missing_in_a_body: "a = classic { color = \\h -> checker white black }\nb = classic { color = \\h -> rgb h.p.x }";
+        one_branch_varies: "a = classic { color = if 1 > 2 then checker white black else blue }";
+        call_of_nothing: "a = random()";
+        map_of_a_constructor: "a = map sphere [1, 2, 3]";
+        named_argument: "a = sphere {} |> translate (x = 1)";
+        part_of_the_place: "f h = if h.x > 0 then red else blue\na = classic { color = f }\nb = classic { color = \\h -> white * (h.y + h.p.x) }";
+        constructors_in_a_row: "a = difference cube {} sphere {}\nb = group sphere {} cube {}";
+        blocks: "c = 1 > 2\na = if c { red } else { blue }\nf r = { return sphere { radius = r } }";
+        function_without_backslash: "a = classic { color = h -> red }";
+        generator_with_equals: "a = [ i | i = [0 .. 5] ]\nb = [ i | for i in [0 .. 5] ]\nc = [ i | i <- 0 .. 5 ]";
+        comma_missing_before_a_field: "a = sphere { radius = 1 center (0, 0, 0) }";
+        composed_at_the_top: "a = sin . cos";
+        flat_faces: "a = triangles { points = [(0, 0, 0), (1, 0, 0), (0, 1, 0)], faces = [0, 1, 2] }";
+        sides: "a = box { width = 1 }";
+        rotate_y: "a = sphere {} |> rotateY 30deg\nb = sphere {} |> rotate (0, 30, 0)";
+        two_words: "my ball = sphere {}\na = ball";
+        povray_inside: "a = box { <-1, 0, -1>, <1, 2, 1> }\nb = sphere { center = <-1, 0, 0> }\nc = plane { y, -1 }\nd = rgb <1, 0, 0>";
+        degree_sign: "a = 30°";
+        decimal_comma: "a = sphere { radius = 1,5 }";
+        file_for_an_image: "a = classic { color = imageMap \"x.png\" }";
+        vector_for_a_color: "a = classic { color = \\h -> h.normal * 0.5 + 0.5 }";
+        list_in_parentheses: "a = group (sphere {}, cube {})";
+        equals_missing: "s sphere { radius = 1 }";
+        pipe_of_a_shell: "a = sphere {} | translate (1, 0, 0)";
     }
 
     fields {

@@ -106,6 +106,10 @@ fn of_leaf(geometry: &Geometry, leaf: u32) -> Corners {
         Prepared::ExactSphere { center, radius } => of_sphere(placement, *center, radius.abs()),
         Prepared::Cuboid { min, max, .. } => placement.map_or([*min, *max], |to| to.box_to_world(*min, *max)),
         Prepared::Plane { .. } | Prepared::ExactPlane { .. } => EVERYWHERE,
+        Prepared::Round { shape, .. } => {
+            let [min, max] = shape.corners();
+            placement.map_or([min, max], |to| to.box_to_world(min, max))
+        }
         Prepared::Mesh(mesh) => match (mesh.bounds(), placement) {
             (Some([min, max]), Some(placement)) => placement.box_to_world(min, max),
             (Some(corners), None) => corners,

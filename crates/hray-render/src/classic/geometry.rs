@@ -4,8 +4,9 @@ use super::accelerate::{Accelerated, accelerate};
 use super::material::Materials;
 use super::mesh::PreparedMesh;
 use super::placement::Placement;
+use super::round::MOST_INTERVALS;
 use super::shapes::Prepared;
-use super::solid::{Node, Ray, Solid, interval};
+use super::solid::{Node, Ray, Solid, intervals};
 use hray_core::{Csg, CsgOperation, DAffine3, Integrator, Primitive, Shape};
 use std::collections::HashMap;
 use std::collections::hash_map::Entry;
@@ -231,10 +232,10 @@ impl Geometry {
     }
 
     /// The distances between which a ray is inside a leaf.
-    pub(super) fn interval(&self, leaf: usize, ray: &Ray) -> [f64; 2] {
+    pub(super) fn intervals(&self, leaf: usize, ray: &Ray) -> [[f64; 2]; MOST_INTERVALS] {
         match self.placement(leaf) {
-            None => interval(&self.shapes[leaf], ray),
-            Some(placement) => interval(&self.shapes[leaf], &placement.ray(ray)),
+            None => intervals(&self.shapes[leaf], ray),
+            Some(placement) => intervals(&self.shapes[leaf], &placement.ray(ray)),
         }
     }
 }

@@ -20,10 +20,12 @@ mod material;
 mod mesh;
 mod placement;
 mod plans;
+mod round;
 mod shapes;
 mod solid;
 mod steps;
 mod texture;
+mod torus;
 mod trace;
 mod uv;
 
@@ -336,5 +338,7 @@ impl Integrator {
     }
 }
 
+#[cfg(test)]
+mod round_tests;
 #[cfg(test)]
 mod tests;

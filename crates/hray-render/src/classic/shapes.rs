@@ -6,9 +6,11 @@
 
 use super::mesh::PreparedMesh;
 use super::placement::size;
+use super::round::Round;
+use super::trace::ray_of;
 use fearless_simd::prelude::*;
 use hray_core::{DVec3, Integrator, Shape};
-use hray_expr::kernels::lanes::{Lanes, Mask, Vec3};
+use hray_expr::kernels::lanes::{Lanes, MAX_LANES, Mask, Vec3};
 use std::sync::Arc;
 
 /// The thesis' least distance of a hit (`fstPos`); it keeps a ray from hitting the spot it starts at.
@@ -48,6 +50,11 @@ pub(super) enum Prepared {
     Cuboid {
         min: DVec3,
         max: DVec3,
+        nearest: f64,
+    },
+    /// One ray at a time. A hit must be farther away than `nearest`.
+    Round {
+        shape: Arc<Round>,
         nearest: f64,
     },
     /// Rays go through its own tree, one at a time, and not by [`Prepared::hit`].
@@ -109,6 +116,10 @@ impl Prepared {
             Shape::Cuboid(cuboid) => {
                 let nearest = if thesis { NEAREST } else { 0.0 };
                 Self::Cuboid { min: cuboid.min, max: cuboid.max, nearest }
+            }
+            Shape::Frustum(_) | Shape::Disc(_) | Shape::Torus(_) => {
+                let nearest = if thesis { NEAREST } else { 0.0 };
+                Self::Round { shape: Arc::new(Round::new(shape)?), nearest }
             }
             Shape::Csg(_) | Shape::Mesh(_) => return None,
         })
@@ -186,6 +197,16 @@ impl Prepared {
                 let met = enter.simd_le(exit) & distance.simd_gt(nearest);
                 Some((distance, met & distance.simd_lt(f64::INFINITY)))
             }
+            Self::Round { ref shape, nearest } => {
+                let mut distances = [f64::NAN; MAX_LANES];
+                for (lane, distance) in distances.iter_mut().enumerate().take(Lanes::<S>::LEN) {
+                    if let Some(found) = shape.hit(&ray_of(rays, lane), nearest) {
+                        *distance = found;
+                    }
+                }
+                let distance = Lanes::<S>::from_slice(simd, &distances[..Lanes::<S>::LEN]);
+                Some((distance, distance.simd_eq(distance)))
+            }
             Self::Sphere { .. } | Self::Plane { .. } | Self::Mesh(_) => None,
         }
     }
@@ -231,6 +252,20 @@ impl Prepared {
                 Surface { point, normal, bound: bound(size(normal).dot(size(point)) + offset.abs()) }
             }
             Self::Cuboid { min, max, .. } => cuboid_surface(simd, min, max, rays, distance, point),
+            Self::Round { ref shape, .. } => {
+                let mut columns = [[0.0; MAX_LANES]; 7];
+                for lane in 0..Lanes::<S>::LEN {
+                    let spot = shape.spot(DVec3::new(point.x[lane], point.y[lane], point.z[lane]));
+                    let [x, y, z] = spot.point.to_array();
+                    let [nx, ny, nz] = spot.normal.to_array();
+                    for (column, value) in columns.iter_mut().zip([x, y, z, nx, ny, nz, spot.bound]) {
+                        column[lane] = value;
+                    }
+                }
+                let [x, y, z, nx, ny, nz, bound] =
+                    columns.map(|column| Lanes::<S>::from_slice(simd, &column[..Lanes::<S>::LEN]));
+                Surface { point: Vec3 { x, y, z }, normal: Vec3 { x: nx, y: ny, z: nz }, bound }
+            }
             // The thesis' have no use for it, and a mesh's hits are located by itself.
             Self::Sphere { .. } | Self::Plane { .. } | Self::Mesh(_) => {
                 Surface { point, normal: point, bound: Lanes::<S>::splat(simd, 0.0) }

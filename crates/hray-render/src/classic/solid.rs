@@ -1,7 +1,7 @@
 //! Constructive solid geometry, one ray at a time.
 //!
-//! Every leaf of a solid is convex, so a ray is inside it over one interval of distances. The ends of all intervals
-//! are sorted; on the way along the ray each end changes one leaf, which is carried up the tree of operations as
+//! A ray is inside a leaf of a solid over one interval of distances, or over two where it is not convex. The ends of all
+//! intervals are sorted; on the way along the ray each end changes one leaf, which is carried up the tree of operations as
 //! far as something changes. Where the root changes the ray meets the solid's surface. What is cut away is known
 //! for each leaf beforehand: a surface is turned inside out where an odd number of differences lie above its second
 //! operand.
@@ -9,6 +9,7 @@
 //! The tree is a list in which operands come before what is made of them; nothing here recurses.
 
 use super::geometry::Geometry;
+use super::round::{MOST_INTERVALS, NOWHERE};
 use super::shapes::{PARALLEL, Prepared};
 use hray_bvh::{PacketStack, Stack};
 use hray_core::{CsgOperation, DVec3};
@@ -68,13 +69,14 @@ impl Solid {
         ends.clear();
         for (leaf, &node) in (0u32..).zip(&self.leaves) {
             let index = self.first as usize + leaf as usize;
-            let [enter, exit] = geometry.interval(index, ray);
-            // Not where one is no number.
-            if enter < exit {
-                inside[node as usize] = enter <= geometry.nearest && geometry.nearest < exit;
-                let ahead = |at: f64| at > geometry.nearest && at < f64::INFINITY;
-                ends.extend(ahead(enter).then_some(End { at: enter, leaf, enters: true }));
-                ends.extend(ahead(exit).then_some(End { at: exit, leaf, enters: false }));
+            for [enter, exit] in geometry.intervals(index, ray) {
+                // Not where one is no number.
+                if enter < exit {
+                    inside[node as usize] |= enter <= geometry.nearest && geometry.nearest < exit;
+                    let ahead = |at: f64| at > geometry.nearest && at < f64::INFINITY;
+                    ends.extend(ahead(enter).then_some(End { at: enter, leaf, enters: true }));
+                    ends.extend(ahead(exit).then_some(End { at: exit, leaf, enters: false }));
+                }
             }
         }
         if ends.is_empty() {
@@ -136,11 +138,19 @@ impl Solid {
     }
 }
 
-/// The distances between which a ray is inside a shape, in its own space; in the operations and the order of the
-/// lanes.
-pub(super) fn interval(shape: &Prepared, ray: &Ray) -> [f64; 2] {
+/// The distances between which a ray is inside a shape, in its own space, in ascending order; no numbers for what there is
+/// not.
+pub(super) fn intervals(shape: &Prepared, ray: &Ray) -> [[f64; 2]; MOST_INTERVALS] {
+    match shape {
+        Prepared::Round { shape, .. } => shape.intervals(ray),
+        _ => [interval(shape, ray), NOWHERE],
+    }
+}
+
+/// The same for what is convex; in the operations and the order of the lanes.
+fn interval(shape: &Prepared, ray: &Ray) -> [f64; 2] {
     let dot = |a: DVec3, b: DVec3| a.x * b.x + a.y * b.y + a.z * b.z;
-    let nowhere = [f64::NAN; 2];
+    let nowhere = NOWHERE;
     let Ray { origin, direction } = *ray;
     match *shape {
         Prepared::Sphere { center, squared_radius, .. } => {
@@ -189,8 +199,8 @@ pub(super) fn interval(shape: &Prepared, ray: &Ray) -> [f64; 2] {
             }
             [enter, exit]
         }
-        // Not a part of solids.
-        Prepared::Mesh(_) => nowhere,
+        // Not a part of solids, or not convex.
+        Prepared::Mesh(_) | Prepared::Round { .. } => nowhere,
     }
 }
 

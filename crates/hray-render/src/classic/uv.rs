@@ -43,6 +43,7 @@ pub(super) fn uv(shape: &Prepared, p: DVec3, normal: DVec3) -> [f64; 2] {
                 [1.0 - q.x, q.y]
             }
         }
+        Prepared::Round { ref shape, .. } => shape.uv(p),
         // Located by itself.
         Prepared::Mesh(_) => [0.0; 2],
     }
@@ -50,10 +51,15 @@ pub(super) fn uv(shape: &Prepared, p: DVec3, normal: DVec3) -> [f64; 2] {
 
 /// The sphere's parameters of a direction from its centre.
 pub(super) fn direction_uv(d: DVec3) -> [f64; 2] {
-    let u = 0.5 + libm::atan2(d.x, d.z) / TAU;
     let across = (d.x * d.x + d.z * d.z).sqrt();
     let v = 0.5 + libm::atan2(d.y, across) / PI;
-    [if u < 1.0 { u } else { 0.0 }, v]
+    [longitude(d.x, d.z), v]
+}
+
+/// The angle about the y axis, in turns, in [0, 1): from -z eastward.
+pub(super) fn longitude(x: f64, z: f64) -> f64 {
+    let u = 0.5 + libm::atan2(x, z) / TAU;
+    if u < 1.0 { u } else { 0.0 }
 }
 
 #[cfg(test)]

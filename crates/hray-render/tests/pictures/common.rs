@@ -1,9 +1,9 @@
 //! Small scenes, and their colours.
 
 use hray_core::{
-    Background, Camera, Cuboid, DAffine3, DVec3, Description, Encoding, Field, Function, Integrator, Light,
-    Material, Mesh, NoiseTables, PerspectiveCamera, Plane, Primitive, Resolution, Rgb, Scene, Shape, Sphere,
-    Texture,
+    Background, Camera, Cuboid, DAffine3, DVec3, Description, Encoding, Field, Frustum, Function, Integrator,
+    Light, Material, Mesh, NoiseTables, PerspectiveCamera, Plane, Primitive, Resolution, Rgb, Scene, Shape,
+    Sphere, Texture, Torus,
 };
 use hray_expr::{Binary, Builder, Input, NodeId};
 use hray_render::{Control, Settings, render};
@@ -130,6 +130,14 @@ pub(crate) fn sphere(center: DVec3, radius: f64) -> Shape {
 
 pub(crate) fn plane(normal: DVec3, offset: f64) -> Shape {
     Shape::Plane(Plane { normal, offset })
+}
+
+pub(crate) fn frustum(base: DVec3, top: DVec3, radii: [f64; 2]) -> Shape {
+    Shape::Frustum(Arc::new(Frustum { base, top, radii, is_capped: true }))
+}
+
+pub(crate) fn torus(center: DVec3, axis: DVec3, radius: f64, tube: f64) -> Shape {
+    Shape::Torus(Arc::new(Torus { center, axis: axis.normalize(), radius, tube }))
 }
 
 pub(crate) fn cuboid(min: DVec3, max: DVec3) -> Shape {

@@ -1,6 +1,6 @@
 //! A tracer of obvious code: one ray, every crossing with every surface, and for solids whether points are inside.
 
-use hray_core::{CsgOperation, DAffine3, DVec3, Primitive, Shape};
+use hray_core::{CsgOperation, DAffine3, DVec3, Frustum, Primitive, Shape, Torus};
 
 /// Where a ray meets something: distance, point, outward normal.
 #[derive(Clone, Copy, Debug)]
@@ -53,6 +53,30 @@ fn crossings(primitive: &Primitive, outer: DAffine3, origin: DVec3, direction: D
             let mut all = crossings(a, to_world, origin, direction);
             all.extend(crossings(b, to_world, origin, direction));
             return all;
+        }
+        Shape::Frustum(frustum) => frustum_crossings(frustum, o, d),
+        // By small steps and halves.
+        Shape::Torus(torus) => {
+            let at = |t: f64| from_torus(torus, o + d * t).0 < 0.0;
+            let mut found = Vec::new();
+            for step in 0..6000 {
+                let (mut low, mut high) = (f64::from(step) * 0.003, f64::from(step + 1) * 0.003);
+                let before = at(low);
+                if before == at(high) {
+                    continue;
+                }
+                for _ in 0..60 {
+                    let middle = 0.5 * (low + high);
+                    if at(middle) == before { low = middle } else { high = middle }
+                }
+                found.push((high, from_torus(torus, o + d * high).1));
+            }
+            found
+        }
+        Shape::Disc(disc) => {
+            let t = (disc.center - o).dot(disc.normal) / d.dot(disc.normal);
+            let from = (o + d * t).distance(disc.center);
+            if (disc.hole..=disc.radius).contains(&from) { vec![(t, disc.normal)] } else { Vec::new() }
         }
         // Each triangle by Cramer's rule.
         Shape::Mesh(mesh) => {
@@ -107,6 +131,52 @@ fn crossings(primitive: &Primitive, outer: DAffine3, origin: DVec3, direction: D
     found.into_iter().map(hit).collect()
 }
 
+/// The distance from the surface, negative inside, and the normal there.
+fn from_torus(torus: &Torus, p: DVec3) -> (f64, DVec3) {
+    let height = (p - torus.center).dot(torus.axis);
+    let across = p - torus.center - torus.axis * height;
+    let ring = torus.center + across.normalize() * torus.radius;
+    ((p - ring).length() - torus.tube, (p - ring).normalize())
+}
+
+/// How far along the axis from 0 to 1, how far from it, and in which direction.
+fn in_frustum(frustum: &Frustum, p: DVec3) -> (f64, f64, DVec3) {
+    let axis = frustum.top - frustum.base;
+    let along = (p - frustum.base).dot(axis) / axis.length_squared();
+    let across = p - frustum.base - axis * along;
+    (along, across.length(), across.normalize())
+}
+
+fn frustum_crossings(frustum: &Frustum, o: DVec3, d: DVec3) -> Vec<(f64, DVec3)> {
+    let axis = frustum.top - frustum.base;
+    let [r0, r1] = frustum.radii;
+    let mut found = Vec::new();
+    for (center, radius, normal) in [(frustum.base, r0, -axis), (frustum.top, r1, axis)] {
+        let t = (center - o).dot(axis) / d.dot(axis);
+        if frustum.is_capped && (o + d * t).distance(center) < radius {
+            found.push((t, normal));
+        }
+    }
+    // |across|² = radius², both linear in t.
+    let part =
+        |v: DVec3| (v.dot(axis) / axis.length_squared(), v - axis * (v.dot(axis) / axis.length_squared()));
+    let ((h, x), (dh, dx)) = (part(o - frustum.base), part(d));
+    let (r, dr) = (r0 + (r1 - r0) * h, (r1 - r0) * dh);
+    let (a, b, c) = (dx.dot(dx) - dr * dr, 2.0 * (x.dot(dx) - r * dr), x.dot(x) - r * r);
+    let discriminant = b * b - 4.0 * a * c;
+    if discriminant > 0.0 {
+        for root in [-discriminant.sqrt(), discriminant.sqrt()] {
+            let t = (root - b) / (2.0 * a);
+            let (along, _, out) = in_frustum(frustum, o + d * t);
+            if (0.0..=1.0).contains(&along) {
+                let slope = (r1 - r0) / axis.length();
+                found.push((t, out - axis.normalize() * slope));
+            }
+        }
+    }
+    found
+}
+
 fn is_inside(primitive: &Primitive, outer: DAffine3, point: DVec3) -> bool {
     let to_world = match &primitive.transform {
         Some(transform) => outer * **transform,
@@ -116,8 +186,14 @@ fn is_inside(primitive: &Primitive, outer: DAffine3, point: DVec3) -> bool {
     match &primitive.shape {
         Shape::Sphere(sphere) => p.distance(sphere.center) < sphere.radius,
         Shape::Plane(plane) => plane.normal.dot(p) + plane.offset < 0.0,
-        // Meshes are not parts of solids.
-        Shape::Mesh(_) => false,
+        // Not parts of solids.
+        Shape::Mesh(_) | Shape::Disc(_) => false,
+        Shape::Torus(torus) => from_torus(torus, p).0 < 0.0,
+        Shape::Frustum(frustum) => {
+            let (along, distance, _) = in_frustum(frustum, p);
+            let radius = frustum.radii[0] + (frustum.radii[1] - frustum.radii[0]) * along;
+            (0.0..1.0).contains(&along) && distance < radius
+        }
         Shape::Cuboid(cuboid) => p.cmpgt(cuboid.min).all() && p.cmplt(cuboid.max).all(),
         Shape::Csg(csg) => {
             let [a, b] = csg.operands.each_ref().map(|operand| is_inside(operand, to_world, point));

@@ -2,10 +2,11 @@
 //! the same.
 
 use crate::common::{
-    NOTHING, ball, colors, cuboid, description, glass, gray, matte, mirror, of, placed, plane, sphere, v,
+    NOTHING, ball, colors, cuboid, description, frustum, glass, gray, matte, mirror, of, placed, plane,
+    sphere, torus, v,
 };
 use hray_core::{
-    Background, Camera, Csg, CsgOperation, DAffine3, DMat3, DVec3, Description, Light, Material, Mesh,
+    Background, Camera, Csg, CsgOperation, DAffine3, DMat3, DVec3, Description, Disc, Light, Material, Mesh,
     Primitive, Rgb, Shape, Texture,
 };
 use std::sync::Arc;
@@ -17,6 +18,13 @@ fn scaled(shape: &Shape, s: f64) -> Shape {
         Shape::Sphere(a) => sphere(a.center * s, a.radius * s),
         Shape::Plane(a) => plane(a.normal, a.offset * s),
         Shape::Cuboid(a) => cuboid(a.min * s, a.max * s),
+        Shape::Frustum(a) => frustum(a.base * s, a.top * s, a.radii.map(|radius| radius * s)),
+        Shape::Torus(a) => torus(a.center * s, a.axis, a.radius * s, a.tube * s),
+        Shape::Disc(a) => {
+            let disc =
+                Disc { center: a.center * s, normal: a.normal, radius: a.radius * s, hole: a.hole * s };
+            Shape::Disc(Arc::new(disc))
+        }
         Shape::Mesh(mesh) => {
             let positions = mesh.positions().iter().map(|p| p.map(|x| (f64::from(x) * s) as f32)).collect();
             let scaled = Mesh::new(positions, mesh.triangles().to_vec()).unwrap();
@@ -71,6 +79,17 @@ fn everything() -> Description {
         of(plane(v(0.0, 1.0, 0.1), 0.9), &half),
         of(sphere(v(0.8, 0.0, 0.0), 0.5), &glass(1.5)),
         of(sphere(v(0.1, -0.5, 0.9), 0.3), &mirror()),
+        of(torus(v(0.6, 0.9, 0.2), v(0.2, 1.0, 0.6), 0.35, 0.1), &half),
+        of(frustum(v(-0.9, -0.9, 1.0), v(-0.8, -0.1, 1.1), [0.25, 0.05]), &half),
+        of(
+            Shape::Disc(Arc::new(Disc {
+                center: v(0.7, -0.7, 1.1),
+                normal: DVec3::Y,
+                radius: 0.3,
+                hole: 0.1,
+            })),
+            &half,
+        ),
         placed(of(Shape::Csg(Arc::new(bored)), &half), turned),
         placed(
             of(sphere(DVec3::ZERO, 0.5), &half),

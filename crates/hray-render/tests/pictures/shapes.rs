@@ -1,8 +1,8 @@
 //! Where shapes are hit.
 
 use crate::common::{
-    NORMAL, Numbers, OBJECT, WORLD, camera, colors, cuboid, description, directions, middle, of, placed,
-    plane, showing, shown, sphere, v,
+    NORMAL, Numbers, OBJECT, WORLD, camera, colors, cuboid, description, directions, frustum, middle, of,
+    placed, plane, showing, shown, sphere, torus, v,
 };
 use crate::reference::nearest;
 use hray_core::{DAffine3, DMat3, DVec3, Integrator, Primitive, Rgb};
@@ -19,13 +19,22 @@ fn random_placement(n: &mut Numbers) -> DAffine3 {
 }
 
 pub(crate) fn random_leaf(n: &mut Numbers, show: [Input; 3]) -> Primitive {
-    let shape = match n.below(5) {
+    let shape = match n.below(8) {
         0 | 1 => sphere(n.point(0.8), n.between(0.3, 1.2)),
         2 | 3 => {
             let min = n.point(0.8) - 0.4;
             cuboid(min, min + v(n.between(0.3, 1.5), n.between(0.3, 1.5), n.between(0.3, 1.5)))
         }
-        _ => plane(n.point(1.0), n.between(0.2, 1.5)),
+        4 => plane(n.point(1.0), n.between(0.2, 1.5)),
+        5 => {
+            let base = n.point(0.8);
+            frustum(base, base + n.point(1.2), [n.between(0.2, 0.8); 2])
+        }
+        6 => {
+            let base = n.point(0.8);
+            frustum(base, base + n.point(1.2), [n.between(0.2, 1.0), n.between(0.0, 0.6)])
+        }
+        _ => torus(n.point(0.8), n.point(1.0), n.between(0.6, 1.2), n.between(0.1, 0.5)),
     };
     let primitive = of(shape, &showing(show));
     if n.below(2) == 0 { placed(primitive, random_placement(n)) } else { primitive }

@@ -12,7 +12,8 @@ use crate::hry::sources::STANDARD_BASE;
 use crate::hry::syntax;
 use glam::DVec3;
 use hray_core::{
-    Camera, Cuboid, Light, OrthographicCamera, PerspectiveCamera, Plane, Rgb, Shape, Sphere, WindowCamera,
+    Camera, Cuboid, Disc, Frustum, Light, OrthographicCamera, PerspectiveCamera, Plane, Rgb, Shape, Sphere,
+    Torus, WindowCamera,
 };
 use std::sync::Arc;
 
@@ -321,9 +322,55 @@ impl<'m, 'a> Fields<'m, 'a> {
                 let size = self.vector("size")?;
                 self.cuboid(size)?
             }
+            "cylinder" => {
+                let radius = self.number("radius")?;
+                self.frustum([radius; 2])?
+            }
+            "cone" => {
+                let radii = [self.number("radius")?, self.number("top")?];
+                self.frustum(radii)?
+            }
+            "disc" => {
+                let (radius, hole) = (self.number("radius")?, self.number("hole")?);
+                self.less_than("hole", hole, radius)?;
+                let (center, normal) = (self.vector("center")?, self.vector("normal")?);
+                Shape::Disc(Arc::new(Disc { center, normal: unit(normal), radius, hole }))
+            }
+            "torus" => {
+                let (radius, tube) = (self.number("radius")?, self.number("tube")?);
+                self.less_than("tube", tube, radius)?;
+                let (center, axis) = (self.vector("center")?, self.vector("axis")?);
+                Shape::Torus(Arc::new(Torus { center, axis: unit(axis), radius, tube }))
+            }
             name => return Err(internal(self.span, &format!("a shape `{name}` that is not made")).into()),
         };
         Machine::shape(ShapeNode::Leaf { shape, material }, 0, self.span)
+    }
+
+    fn frustum(&mut self, radii: [f64; 2]) -> Outcome<Shape> {
+        let (base, top) = (self.vector("from")?, self.vector("to")?);
+        if base == top {
+            let name = self.constructor.name;
+            let span =
+                self.optional("to").or_else(|| self.optional("from")).map_or(self.span, |given| given.span);
+            let message = format!("`from` and `to` of `{name}` are the same point");
+            let error = Diagnostic::error("out-of-range", message, span, "another point is expected");
+            return Err(Failure::new(error.with_help("they are the middles of its two ends")));
+        }
+        let is_open = matches!(self.optional("open"), Some(Given { value: Value::Bool(true), .. }));
+        Ok(Shape::Frustum(Arc::new(Frustum { base, top, radii, is_capped: !is_open })))
+    }
+
+    /// Complains where one field is not less than `radius`.
+    fn less_than(&self, name: &str, value: f64, radius: f64) -> Outcome<()> {
+        if value < radius {
+            return Ok(());
+        }
+        let owner = self.constructor.name;
+        let span = self.optional(name).map_or(self.span, |given| given.span);
+        let message =
+            format!("`{name}` of `{owner}` has to be less than `radius`, which is {radius}; this is {value}");
+        Err(Failure::new(Diagnostic::error("out-of-range", message, span, "too large")))
     }
 
     fn cuboid(&mut self, size: DVec3) -> Outcome<Shape> {

@@ -56,6 +56,11 @@ impl Machine<'_> {
                     .with_help("a depth of 0 shows all surfaces, but no reflections and refractions"),
             );
         }
+        if scene.primitives.is_empty() {
+            let message = "there are no objects, so only the background is seen";
+            let error = Diagnostic::warning("no-objects", message, places.objects, "nothing is in the scene");
+            self.warn(error.with_help("for example: objects = [ sphere {} ]"));
+        }
         let glows = scene.primitives.iter().any(|primitive| primitive.material.glow.is_some());
         if scene.lights.is_empty() && !scene.primitives.is_empty() && !glows && !has_own_light(scene) {
             let message = "there are no lights, so all surfaces are black";

@@ -10,7 +10,7 @@ use crate::diagnostic::{Diagnostic, Span};
 use crate::hry::ast::BinaryOperator;
 use crate::hry::library::Native;
 use crate::hry::program::missing_asset;
-use hray_core::{CsgOperation, Shape};
+use hray_core::CsgOperation;
 use hray_expr::{Binary, Block, NodeId, NoiseKind, Unary};
 use std::fmt::Write as _;
 use std::sync::Arc;
@@ -440,12 +440,13 @@ impl Machine<'_> {
         let (Value::Shape(a), Value::Shape(b)) = (a, b) else {
             return Err(internal(span, "a solid of something else than shapes").into());
         };
-        if a.has_mesh || b.has_mesh {
-            let message = "a mesh cannot be part of a solid yet";
-            let error = Diagnostic::error("mesh-in-solid", message, span, "a mesh is in one of the two");
+        if a.is_hollow || b.is_hollow {
+            let message = "what has no inside cannot be part of a solid";
+            let label = "a mesh, a disc or something open is in one of the two";
+            let error = Diagnostic::error("not-a-solid", message, span, label);
             return Err(Failure::new(error.with_help(
-                "`group` puts shapes together without joining them; only spheres, boxes, planes and what is made of \
-                 them have an inside",
+                "`group` puts shapes together without joining them; spheres, planes, boxes, cylinders, cones, tori and what \
+                 is made of them have an inside (a mesh has none yet)",
             )));
         }
         let nesting = a.nesting.max(b.nesting) + 1;
@@ -471,15 +472,15 @@ impl Machine<'_> {
                 ),
             ));
         }
-        let has_mesh = match &node {
-            ShapeNode::Leaf { shape, .. } => matches!(shape, Shape::Mesh(_)),
+        let is_hollow = match &node {
+            ShapeNode::Leaf { shape, .. } => !shape.is_solid(),
             ShapeNode::Csg { .. } => false,
             ShapeNode::Group(list) => {
-                list.items.iter().any(|item| matches!(item, Value::Shape(shape) if shape.has_mesh))
+                list.items.iter().any(|item| matches!(item, Value::Shape(shape) if shape.is_hollow))
             }
-            ShapeNode::Placed { shape, .. } | ShapeNode::Painted { shape, .. } => shape.has_mesh,
+            ShapeNode::Placed { shape, .. } | ShapeNode::Painted { shape, .. } => shape.is_hollow,
         };
-        Ok(Value::Shape(Arc::new(ShapeValue { node, nesting, has_mesh, _charge: charge })))
+        Ok(Value::Shape(Arc::new(ShapeValue { node, nesting, is_hollow, _charge: charge })))
     }
 
     /// A hit as a moved function sees it: taken back by the inverse of the move.

@@ -160,7 +160,7 @@ pub(super) struct ShapeValue {
     /// How deep shapes nest in it.
     pub(super) nesting: u32,
     /// Whether there is a mesh in it.
-    pub(super) has_mesh: bool,
+    pub(super) is_hollow: bool,
     /// The bytes of a mesh that is its own.
     pub(super) _charge: Option<Charge>,
 }

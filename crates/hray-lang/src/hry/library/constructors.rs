@@ -54,6 +54,12 @@ const MATERIAL: FieldSpec = with_default(
     "",
     "What it is made of. Where it is left out, `paint` gives one; where nothing does, it is matte white.",
 );
+const OPEN: FieldSpec = with_default(
+    "open",
+    T::Bool,
+    "",
+    "`true` leaves the discs at both ends away; what is open has no inside, so it cannot be a part of solids.",
+);
 const UNITS: &str = "scene units";
 
 /// All constructors, in the order of the reference.
@@ -161,6 +167,74 @@ pub const CONSTRUCTORS: &[Constructor] = &[
                 .range(Range::Positives)
                 .unit(UNITS),
             with_default("center", T::Vec3, "(0, 0, 0)", "The centre.").unit(UNITS),
+            MATERIAL,
+        ],
+    },
+    Constructor {
+        name: "cylinder",
+        makes: Makes::Shape,
+        doc: "A round rod between two points.",
+        example: "cylinder { from = (0, 0, 0), to = (0, 2, 0), radius = 0.5 }",
+        fields: &[
+            with_default("from", T::Vec3, "(0, 0, 0)", "The middle of one end.").unit(UNITS),
+            with_default("to", T::Vec3, "(0, 1, 0)", "The middle of the other end, another point.").unit(UNITS),
+            with_default("radius", T::Number, "1", "Distance from the axis to the side.")
+                .range(Range::Positive)
+                .unit(UNITS),
+            OPEN,
+            MATERIAL,
+        ],
+    },
+    Constructor {
+        name: "cone",
+        makes: Makes::Shape,
+        doc: "A cone from a round base to a tip, or to a smaller or larger circle.",
+        example: "cone { from = (0, 0, 0), to = (0, 1.5, 0), radius = 0.5 }",
+        fields: &[
+            with_default("from", T::Vec3, "(0, 0, 0)", "The middle of the base.").unit(UNITS),
+            with_default("to", T::Vec3, "(0, 1, 0)", "The tip, or the middle of the top; another point.").unit(UNITS),
+            with_default("radius", T::Number, "1", "Radius at the base.").range(Range::Positive).unit(UNITS),
+            with_default("top", T::Number, "0", "Radius at the top; 0 gives a tip.")
+                .range(Range::NonNegative)
+                .unit(UNITS),
+            OPEN,
+            MATERIAL,
+        ],
+    },
+    Constructor {
+        name: "disc",
+        makes: Makes::Shape,
+        doc: "A flat disc, or a ring where it has a hole. It is infinitely thin and has no inside, so it cannot be a part \
+              of solids.",
+        example: "disc { center = (0, 1, 0), normal = up, radius = 2, hole = 1 }",
+        fields: &[
+            with_default("center", T::Vec3, "(0, 0, 0)", "The centre.").unit(UNITS),
+            with_default("normal", T::Vec3, "(0, 1, 0)", "A direction at right angles to it, of any length.")
+                .range(Range::Direction),
+            with_default("radius", T::Number, "1", "Distance from the centre to the rim.")
+                .range(Range::Positive)
+                .unit(UNITS),
+            with_default("hole", T::Number, "0", "Radius of the hole; less than `radius`.")
+                .range(Range::NonNegative)
+                .unit(UNITS),
+            MATERIAL,
+        ],
+    },
+    Constructor {
+        name: "torus",
+        makes: Makes::Shape,
+        doc: "A ring: everything at one distance from a circle.",
+        example: "torus { radius = 1, tube = 0.25 }",
+        fields: &[
+            with_default("radius", T::Number, "1", "Radius of the circle in the middle of the ring.")
+                .range(Range::Positive)
+                .unit(UNITS),
+            with_default("tube", T::Number, "0.25", "Half the thickness of the ring; less than `radius`.")
+                .range(Range::Positive)
+                .unit(UNITS),
+            with_default("center", T::Vec3, "(0, 0, 0)", "The centre.").unit(UNITS),
+            with_default("axis", T::Vec3, "(0, 1, 0)", "The direction that the hole leads along, of any length.")
+                .range(Range::Direction),
             MATERIAL,
         ],
     },

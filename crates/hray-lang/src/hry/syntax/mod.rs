@@ -54,10 +54,21 @@ pub fn parse(text: &str, base: usize) -> Parse {
     let (mut tokens, mut errors) = lexer::lex(text, base);
     let brackets = brackets::check(base, &mut tokens);
     let (nodes, found) = parser::parse(text, base, &tokens, &brackets);
+    errors.extend(tight_comments(text, base, &tokens));
     errors.extend(brackets.errors);
     errors.extend(found);
     let errors = complaint::tidy(text, base, errors);
     Parse { text: Arc::from(text), base, tokens, nodes, errors }
+}
+
+/// Comments that were meant to be two minus signs: `3--2`.
+fn tight_comments(text: &str, base: usize, tokens: &[Token]) -> Vec<Diagnostic> {
+    let tight = tokens.iter().filter(|token| {
+        let is_value = matches!(token.kind, SyntaxKind::Number | SyntaxKind::Name | SyntaxKind::CloseParen);
+        let rest = text.get(token.end as usize..).and_then(|rest| rest.strip_prefix("--"));
+        is_value && rest.is_some_and(|rest| rest.starts_with(|c: char| c.is_ascii_digit() || c == '('))
+    });
+    tight.map(|token| complaint::characters::tight_comment(Span::at(base + token.end as usize))).collect()
 }
 
 impl Parse {

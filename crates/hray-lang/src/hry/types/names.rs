@@ -90,10 +90,12 @@ pub(super) fn resolve(
         hit_missing: None,
         choices: &[],
         called: None,
+        current: None,
     };
     resolver.imports(&module.syntax);
     for (index, definition) in module.syntax.definitions.iter().enumerate() {
         resolver.needs.clear();
+        resolver.current = definition.name().map(|name| name.text);
         resolver.definition(definition);
         let needs = std::mem::take(&mut resolver.needs);
         resolver.names.needs.insert((place, index), needs);
@@ -160,6 +162,8 @@ struct Resolver<'a> {
     choices: &'static [&'static str],
     /// The start of a name that is given arguments.
     called: Option<usize>,
+    /// The name of the definition at the top that is being walked.
+    current: Option<Arc<str>>,
 }
 
 impl Resolver<'_> {
@@ -320,8 +324,13 @@ impl Resolver<'_> {
         let mut locals: Vec<&str> = locals.map(|(name, _)| &**name).collect();
         locals.sort_unstable();
         let is_called = self.called == Some(span.start);
-        let around =
-            unknown::Around { module: self.module, locals: &locals, choices: self.choices, is_called };
+        let around = unknown::Around {
+            module: self.module,
+            locals: &locals,
+            choices: self.choices,
+            is_called,
+            current: self.current.as_deref(),
+        };
         self.diagnostics.push(unknown::name(name, span, &around));
         Meaning::Nothing
     }

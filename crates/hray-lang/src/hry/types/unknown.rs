@@ -1,7 +1,7 @@
 //! Names that mean nothing, and what was probably meant.
 
 use crate::diagnostic::{Diagnostic, Span};
-use crate::hry::ast::PatternKind;
+use crate::hry::ast::{Pattern, PatternKind};
 use crate::hry::library::{CONSTRUCTORS, Constructor};
 use crate::hry::program::{Global, LoadedModule, listed, nearest};
 use crate::hry::syntax::complaint::foreign::is_put_before_definitions;
@@ -29,7 +29,7 @@ const FOREIGN: &[Foreign] = &[
     Foreign(
         "blob",
         "",
-        "there is no blob yet; the shapes are `sphere`, `plane`, `cube`, `box`, `mesh` and `triangles`",
+        "there is no blob yet; the shapes are `sphere`, `plane`, `cube`, `box`, `cylinder`, `cone`, `disc`, `torus`, `mesh` and `triangles`",
     ),
     Foreign("boolean", "", "the type of `true` and `false` is `Bool`"),
     Foreign(
@@ -40,7 +40,7 @@ const FOREIGN: &[Foreign] = &[
     Foreign(
         "capsule",
         "",
-        "there is no capsule yet; the shapes are `sphere`, `plane`, `cube`, `box`, `mesh` and `triangles`",
+        "there is no capsule yet; the shapes are `sphere`, `plane`, `cube`, `box`, `cylinder`, `cone`, `disc`, `torus`, `mesh` and `triangles`",
     ),
     Foreign("case", "", "cases are written `match x { 0 -> a, _ -> b }`"),
     Foreign("ceiling", "ceil", ""),
@@ -56,18 +56,9 @@ const FOREIGN: &[Foreign] = &[
         "a colour is `rgb 1 0.5 0` or `#ff8800`; a material of that colour `classic { color = #ff8800 }`",
     ),
     Foreign("concatmap", "", "a comprehension does it: `[ y | x <- list, y <- f x ]`"),
-    Foreign(
-        "cone",
-        "",
-        "there is no cone yet; the shapes are `sphere`, `plane`, `cube`, `box`, `mesh` and `triangles`",
-    ),
     Foreign("const", "", "a function that ignores its argument is `\\_ -> x`"),
     Foreign("cuboid", "box", ""),
-    Foreign(
-        "cylinder",
-        "",
-        "there is no cylinder yet; the shapes are `sphere`, `plane`, `cube`, `box`, `mesh` and `triangles`",
-    ),
+    Foreign("cut", "difference", ""),
     Foreign("declare", "", "a definition is `name = value`"),
     Foreign("def", "", "a function is `name parameter = value`"),
     Foreign("define", "", "a definition is `name = value`"),
@@ -78,16 +69,7 @@ const FOREIGN: &[Foreign] = &[
     ),
     Foreign("diffuse", "classic", "a matte material is `classic { color = ... }`"),
     Foreign("directional_light", "directional", ""),
-    Foreign(
-        "disc",
-        "",
-        "there is no disc yet; the shapes are `sphere`, `plane`, `cube`, `box`, `mesh` and `triangles`",
-    ),
-    Foreign(
-        "disk",
-        "",
-        "there is no disk yet; the shapes are `sphere`, `plane`, `cube`, `box`, `mesh` and `triangles`",
-    ),
+    Foreign("disk", "disc", ""),
     Foreign("do", "", "there are no statements; intermediate values are named by `let ... in`"),
     Foreign("down", "", "it is `-up`"),
     Foreign("e", "", "it is `exp 1`"),
@@ -119,27 +101,29 @@ const FOREIGN: &[Foreign] = &[
     Foreign(
         "height_field",
         "",
-        "there is no height_field yet; the shapes are `sphere`, `plane`, `cube`, `box`, `mesh` and `triangles`",
+        "there is no height_field yet; the shapes are `sphere`, `plane`, `cube`, `box`, `cylinder`, `cone`, `disc`, `torus`, `mesh` and `triangles`",
     ),
     Foreign(
         "heightfield",
         "",
-        "there is no heightfield yet; the shapes are `sphere`, `plane`, `cube`, `box`, `mesh` and `triangles`",
+        "there is no heightfield yet; the shapes are `sphere`, `plane`, `cube`, `box`, `cylinder`, `cone`, `disc`, `torus`, `mesh` and `triangles`",
     ),
     Foreign("id", "identity", ""),
     Foreign("int", "", "there is one kind of numbers; `floor x` drops what follows the point"),
+    Foreign("intersect", "intersection", ""),
     Foreign("inversesqrt", "", "write `1 / sqrt x`"),
     Foreign(
         "isosurface",
         "",
-        "there is no isosurface yet; the shapes are `sphere`, `plane`, `cube`, `box`, `mesh` and `triangles`",
+        "there is no isosurface yet; the shapes are `sphere`, `plane`, `cube`, `box`, `cylinder`, `cone`, `disc`, `torus`, `mesh` and `triangles`",
     ),
+    Foreign("join", "union", ""),
     Foreign("lambda", "", "a function is `\\x -> x + 1`"),
     Foreign("lambert", "classic", ""),
     Foreign(
         "lathe",
         "",
-        "there is no lathe yet; the shapes are `sphere`, `plane`, `cube`, `box`, `mesh` and `triangles`",
+        "there is no lathe yet; the shapes are `sphere`, `plane`, `cube`, `box`, `cylinder`, `cone`, `disc`, `torus`, `mesh` and `triangles`",
     ),
     Foreign("left", "", "it is `-right`"),
     Foreign("len", "", "the number of elements is `count list`, the length of a vector `length v`"),
@@ -160,6 +144,7 @@ const FOREIGN: &[Foreign] = &[
     Foreign("mirror", "", "a mirror is `classic { reflection = 0.8 }`"),
     Foreign("mod", "", "the rest of a division is `a % b`, with spaces around the `%`"),
     Foreign("modulo", "", "the rest of a division is `a % b`, with spaces around the `%`"),
+    Foreign("move", "translate", ""),
     Foreign("new", "", "nothing has to be made new: `sphere { radius = 1 }` is a value"),
     Foreign(
         "nil",
@@ -196,14 +181,14 @@ const FOREIGN: &[Foreign] = &[
     Foreign(
         "prism",
         "",
-        "there is no prism yet; the shapes are `sphere`, `plane`, `cube`, `box`, `mesh` and `triangles`",
+        "there is no prism yet; the shapes are `sphere`, `plane`, `cube`, `box`, `cylinder`, `cone`, `disc`, `torus`, `mesh` and `triangles`",
     ),
     Foreign("product", "", "a product is `fold (\\a b -> a * b) 1 list`"),
     Foreign("putstrln", "", "nothing can be printed from inside a scene"),
     Foreign(
         "pyramid",
         "",
-        "there is no pyramid yet; the shapes are `sphere`, `plane`, `cube`, `box`, `mesh` and `triangles`",
+        "there is no pyramid yet; the shapes are `sphere`, `plane`, `cube`, `box`, `cylinder`, `cone`, `disc`, `torus`, `mesh` and `triangles`",
     ),
     Foreign(
         "quad",
@@ -228,7 +213,17 @@ const FOREIGN: &[Foreign] = &[
     ),
     Foreign("rgba", "rgb", "colours have no alpha; a material has `transparency`"),
     Foreign("rgbf", "rgb", "colours have no filter; a material has `transparency`"),
+    Foreign("rotate_x", "", "a rotation about the x axis is `rotate right 30deg`"),
+    Foreign("rotate_y", "", "a rotation about the y axis is `rotate up 30deg`"),
+    Foreign("rotate_z", "", "a rotation about the z axis is `rotate back 30deg`"),
+    Foreign("rotatex", "", "a rotation about the x axis is `rotate right 30deg`"),
+    Foreign("rotatey", "", "a rotation about the y axis is `rotate up 30deg`"),
+    Foreign("rotatez", "", "a rotation about the z axis is `rotate back 30deg`"),
+    Foreign("roundedbox", "box", ""),
     Foreign("saturate", "", "write `clamp 0 1 x`"),
+    Foreign("scalex", "", "along the x axis: `stretch (2, 1, 1)`"),
+    Foreign("scaley", "", "along the y axis: `stretch (1, 2, 1)`"),
+    Foreign("scalez", "", "along the z axis: `stretch (1, 1, 2)`"),
     Foreign("self", "", "there are no objects with methods; fields are read by `value.field`"),
     Foreign("smooth", "smoothstep", ""),
     Foreign("sphere_sweep", "sphere", ""),
@@ -237,6 +232,7 @@ const FOREIGN: &[Foreign] = &[
     Foreign("sqr", "", "a square is `x ^ 2`"),
     Foreign("square", "", "a square is `x ^ 2`; a solid with equal sides is `cube { size = 1 }`"),
     Foreign("str", "show", ""),
+    Foreign("substract", "difference", "to cut one shape out of another: `difference a b`"),
     Foreign("subtract", "difference", "to cut one shape out of another: `difference a b`"),
     Foreign("sumof", "sum", ""),
     Foreign(
@@ -247,7 +243,7 @@ const FOREIGN: &[Foreign] = &[
     Foreign(
         "superellipsoid",
         "",
-        "there is no superellipsoid yet; the shapes are `sphere`, `plane`, `cube`, `box`, `mesh` and `triangles`",
+        "there is no superellipsoid yet; the shapes are `sphere`, `plane`, `cube`, `box`, `cylinder`, `cone`, `disc`, `torus`, `mesh` and `triangles`",
     ),
     Foreign("switch", "", "cases are written `match x { 0 -> a, _ -> b }`"),
     Foreign("tail", "", "all but the first element are `drop 1 list`"),
@@ -255,12 +251,12 @@ const FOREIGN: &[Foreign] = &[
     Foreign(
         "tetrahedron",
         "",
-        "there is no tetrahedron yet; the shapes are `sphere`, `plane`, `cube`, `box`, `mesh` and `triangles`",
+        "there is no tetrahedron yet; the shapes are `sphere`, `plane`, `cube`, `box`, `cylinder`, `cone`, `disc`, `torus`, `mesh` and `triangles`",
     ),
     Foreign(
         "text",
         "",
-        "there is no text yet; the shapes are `sphere`, `plane`, `cube`, `box`, `mesh` and `triangles`",
+        "there is no text yet; the shapes are `sphere`, `plane`, `cube`, `box`, `cylinder`, `cone`, `disc`, `torus`, `mesh` and `triangles`",
     ),
     Foreign(
         "texture",
@@ -271,13 +267,11 @@ const FOREIGN: &[Foreign] = &[
     Foreign("thinlens", "", "the cameras are `perspective`, `orthographic` and `window`"),
     Foreign("this", "", "there are no objects with methods; fields are read by `value.field`"),
     Foreign("time", "", "the time in seconds is the parameter of the scene: `scene t = { ... }`"),
-    Foreign(
-        "torus",
-        "",
-        "there is no torus yet; the shapes are `sphere`, `plane`, `cube`, `box`, `mesh` and `triangles`",
-    ),
     Foreign("tostring", "show", ""),
     Foreign("transform", "", "use `translate`, `rotate`, `scale`, `stretch` or `matrix`"),
+    Foreign("translatex", "", "along the x axis: `translate (1, 0, 0)`"),
+    Foreign("translatey", "", "along the y axis: `translate (0, 1, 0)`"),
+    Foreign("translatez", "", "along the z axis: `translate (0, 0, 1)`"),
     Foreign(
         "triangle",
         "",
@@ -369,7 +363,13 @@ pub(super) fn near<'n>(name: &str, names: impl Iterator<Item = &'n str>) -> Opti
     if is_short(name) {
         return names.into_iter().find(|other| *other != name && other.to_lowercase() == name.to_lowercase());
     }
-    nearest(name, names.filter(|other| !is_short(other)))
+    // Short names are near to many; the first letter is rarely wrong.
+    let is_alike = |other: &str| {
+        name.chars().count() > 4
+            || name.chars().next().map(|c| c.to_ascii_lowercase())
+                == other.chars().next().map(|c| c.to_ascii_lowercase())
+    };
+    nearest(name, names.filter(|other| !is_short(other) && is_alike(other)))
 }
 
 /// What is known about the place of a name that means nothing.
@@ -381,6 +381,8 @@ pub(super) struct Around<'a> {
     pub(super) choices: &'a [&'a str],
     /// Whether it is called with arguments.
     pub(super) is_called: bool,
+    /// The definition at the top that it is in.
+    pub(super) current: Option<&'a str>,
 }
 
 /// The complaint about a name that means nothing.
@@ -403,10 +405,20 @@ pub(super) fn name(name: &str, span: Span, around: &Around<'_>) -> Diagnostic {
         let text = format!("it is in an import with a name of its own: `{qualified}`");
         return error.with_suggestion(span, qualified, text);
     }
+    if let Some((owner, place)) = parameter_of_another(name, around) {
+        let inside = around.current.unwrap_or("f");
+        return error.with_secondary(place, format!("a parameter of `{owner}`")).with_help(format!(
+            "`{name}` exists only inside `{owner}`; make `{inside}` a function of it, `{inside} {name} = ...`, and give it the \
+             value where it is used: `{inside} {name}`"
+        ));
+    }
     if let Some((word, surplus)) = defined_with_word(name, module) {
         let message =
             format!("`{word} {name} = ...` defines a function `{word}`, whose parameter is `{name}`");
         let error = error.with_secondary(surplus, "a definition begins with its name").with_note(message);
+        if !is_put_before_definitions(word) {
+            return error.with_help(format!("a name is one word: `{word}_{name}` in both places"));
+        }
         return error.with_suggestion(surplus, "", format!("leave out `{word}`"));
     }
     if let Some(foreign) = foreign(name) {
@@ -462,6 +474,17 @@ fn suggest_foreign(error: Diagnostic, span: Span, foreign: &Foreign) -> Diagnost
     }
 }
 
+/// A definition that has the name as a parameter, where that may be what was meant, and its place.
+fn parameter_of_another<'m>(name: &str, around: &Around<'m>) -> Option<(&'m str, Span)> {
+    around.module.syntax.definitions.iter().find_map(|definition| {
+        let PatternKind::Name(owner) = &definition.target.kind else { return None };
+        let is_it = |parameter: &&Pattern| matches!(&parameter.kind, PatternKind::Name(p) if **p == *name);
+        let parameter = definition.parameters.iter().find(is_it)?;
+        // The time; other parameters are named alike by chance.
+        (&**owner == "scene" && around.current != Some(&**owner)).then_some((&**owner, parameter.span))
+    })
+}
+
 /// The word of another language in `const name = ...`, and its place with the space after it.
 fn defined_with_word<'m>(name: &str, module: &'m LoadedModule) -> Option<(&'m str, Span)> {
     module.syntax.definitions.iter().find_map(|definition| {
@@ -469,7 +492,8 @@ fn defined_with_word<'m>(name: &str, module: &'m LoadedModule) -> Option<(&'m st
         let first = definition.parameters.first()?;
         let is_it = matches!(&first.kind, PatternKind::Name(parameter) if **parameter == *name);
         let surplus = Span::new(definition.target.span.start, first.span.start);
-        (is_it && is_put_before_definitions(word)).then_some((&**word, surplus))
+        let is_alone = definition.parameters.len() == 1;
+        (is_it && (is_put_before_definitions(word) || is_alone)).then_some((&**word, surplus))
     })
 }
 
@@ -503,7 +527,7 @@ pub(super) fn qualified(
 /// What a field of another program's vocabulary is called here, by the constructor's fields.
 pub(super) fn field_synonym(constructor: &Constructor, name: &str) -> Option<&'static str> {
     const SYNONYMS: &[(&[&str], &[&str])] = &[
-        (&["r", "rad", "diameter"], &["radius"]),
+        (&["r", "rad"], &["radius"]),
         (
             &["position", "pos", "location", "at", "centre", "origin", "middle", "translate"],
             &["center", "position", "from", "eye"],
@@ -514,8 +538,9 @@ pub(super) fn field_synonym(constructor: &Constructor, name: &str) -> Option<&'s
         (&["brightness", "power", "strength", "energy", "color", "colour"], &["intensity"]),
         (&["texture", "pigment", "color", "colour", "finish", "surface"], &["material"]),
         (&["texture", "pigment", "colour", "diffuse", "albedo"], &["color"]),
-        (&["mirror", "reflect", "specular", "metallic"], &["reflection"]),
-        (&["shininess", "gloss", "roughness"], &["shine"]),
+        (&["mirror", "reflect", "metallic"], &["reflection"]),
+        (&["specular", "phong"], &["highlight"]),
+        (&["shininess", "gloss", "phongsize"], &["shine"]),
         (&["transmission", "transmit", "filter", "opacity", "alpha"], &["transparency"]),
         (&["refraction", "refractiveindex", "index"], &["ior"]),
         (&["emission", "emissive"], &["glow"]),

@@ -116,20 +116,46 @@ impl Parser<'_> {
         if self.is(SyntaxKind::OpenBrace) && self.is_povray(first) {
             return self.povray(first);
         }
+        let is_definition = self.kind_of(first) == SyntaxKind::Name
+            && self.kind_of(first + 1) == SyntaxKind::Name
+            && self.kind_of(first + 2) == SyntaxKind::OpenBrace;
+        if is_definition {
+            let name = self.text_of(first);
+            let place = Span::at(self.span_of(first).end);
+            let message = format!("`=` is missing after `{name}`");
+            let error = Diagnostic::error(
+                "missing-equals",
+                message,
+                self.span_of(first + 1),
+                "expected `=` before this",
+            );
+            return error.with_suggestion(place, " =", "add `=`");
+        }
         let message = "this value has no name, so nothing can use it";
         let error =
             Diagnostic::error("missing-name", message, self.span_of(first), "expected `name = ` before this");
         error.with_help("what is rendered is called `scene`: `scene = { objects = [ ... ], ... }`")
     }
 
+    /// Whether the `{` here follows a name, and what is in it is POV-Ray's.
+    pub(in super::super) fn is_povray_here(&self) -> bool {
+        self.at
+            .checked_sub(1)
+            .is_some_and(|name| self.kind_of(name) == SyntaxKind::Name && self.is_povray(name))
+    }
+
     /// Whether `name { <0, 1, 0>` or `name { location <0, 1, 0>` begins at a token.
     fn is_povray(&self, first: usize) -> bool {
         use SyntaxKind as S;
         let kind = |after: usize| self.kind_of(first + after);
+        let is_number = matches!(self.text_of(first), "sphere" | "box" | "torus" | "cone" | "cylinder")
+            && kind(2) == S::Number
+            && kind(3) == S::Comma;
         let is_axis = matches!(self.text_of(first + 2), "x" | "y" | "z") && kind(3) == S::Comma;
         matches!(kind(2), S::Less | S::From)
             || kind(2) == S::Name && matches!(kind(3), S::Less | S::OpenBrace)
             || is_axis
+            || is_number
     }
 
     /// `let` before a definition at the top.
@@ -200,6 +226,18 @@ impl Parser<'_> {
             S::Arrow => self.no_backslash(),
             S::From => error("unexpected", "`<-` takes the elements of a list, inside `[ ... | x <- list ]`", "not expected here")
                 .with_suggestion(here, "< -", "to compare with a negative number, write a space"),
+            S::Dot if self.kind_ahead(1) == S::Name
+                && self.tokens.get(self.at + 1).is_some_and(|next| next.spaced)
+                && self.at.checked_sub(1).is_some_and(|before| self.kind_of(before) == S::Name) =>
+            {
+                let (before, after) = (self.at - 1, self.at + 1);
+                let joined = format!("{} >> {}", self.text_of(after), self.text_of(before));
+                error("foreign-operator", "functions are not joined by `.`", "not an operator of hry").with_suggestion(
+                    self.span_of(before).to(self.span_of(after)),
+                    joined,
+                    "`f >> g` does `f` first, then `g`:",
+                )
+            }
             S::Dot => {
                 let span = Span::new(self.gap().end, here.start);
                 error("missing-field", "a field directly follows its value, without a space", "expected no space before this")
@@ -212,6 +250,10 @@ impl Parser<'_> {
                 .with_help("write `if condition then a else b`"),
             S::InKeyword => error("missing-binding", "this `in` has no `let`", "not expected here").with_help("write `let y = x * 2 in y + 1`"),
             S::DotDot => error("range", "a range is written in brackets", "not expected here").with_help("write `[0 .. 10]`"),
+            S::Bar if self.kind_ahead(1) == S::Name => {
+                error("unexpected", "a value is passed on with `|>`, not with `|`", "expected `|>`")
+                    .with_suggestion(here, "|>", "write `|>`")
+            }
             S::Bar => error("unexpected", "nothing is to be told apart here", "not expected here")
                 .with_help("`|` belongs in `[x | x <- list]` and `{ record | field = value }`; conditions are `if` and `or`"),
             _ => {

@@ -4,7 +4,7 @@ use super::super::kind::SyntaxKind;
 use super::super::parser::{Mark, Parser};
 use super::quoted;
 use crate::diagnostic::{Diagnostic, Span};
-use crate::hry::library::CONSTRUCTORS;
+use crate::hry::library::{CONSTRUCTORS, NATIVES, NativeSpec};
 
 impl Parser<'_> {
     /// What stands where a comma or the closing bracket belongs. True where the next element can be read as it is.
@@ -116,6 +116,10 @@ impl Parser<'_> {
         let error = Diagnostic::error("empty-parentheses", message, span, "expected something in them");
         let before = first.checked_sub(1).filter(|before| self.kind_of(*before) == SyntaxKind::Name);
         let error = match before {
+            Some(name) if takes_arguments(self.text_of(name)).is_some() => {
+                let doc = takes_arguments(self.text_of(name)).map_or("", |native| native.doc);
+                error.with_help(format!("{} takes arguments: {doc}", quoted(self.text_of(name))))
+            }
             Some(name) => {
                 let surplus = Span::new(self.span_of(name).end, span.end);
                 error.with_suggestion(surplus, "", "what takes no arguments is just a value: leave them out")
@@ -314,6 +318,21 @@ impl Parser<'_> {
                     "remove one",
                 )
             }
+            // `radius = 1,5`
+            S::Number
+                if self.is_tight()
+                    && self.at.checked_sub(2).is_some_and(|whole| self.kind_of(whole) == S::Number)
+                    && self.kind_of(self.at - 1) == S::Comma =>
+            {
+                let whole = self.span_of(self.at - 2).to(here);
+                let written = format!("{}.{}", self.text_of(self.at - 2), self.text_of(self.at));
+                let message = "the decimals of a number follow a point, not a comma";
+                Diagnostic::error("odd-number", message, whole, "two values").with_suggestion(
+                    whole,
+                    written,
+                    "write a point",
+                )
+            }
             S::Comma => error("nothing is before the comma", "expected a field before this").with_suggestion(
                 here,
                 "",
@@ -369,6 +388,14 @@ impl Parser<'_> {
         let last = self.at.saturating_sub(1);
         let span = self.span_of(first).to(self.span_of(last));
         let name = first.checked_sub(1).map_or("", |name| self.text_of(name));
+        if !CONSTRUCTORS.iter().any(|constructor| constructor.name == name) {
+            let message = "arguments have no names";
+            let error = Diagnostic::error("named-arguments", message, span, "expected values only");
+            self.report(error.with_help(format!(
+                "values are given one after another, `{name} a b`; to compare, write `==`"
+            )));
+            return;
+        }
         let message = format!("the fields of {} stand in braces, not in parentheses", quoted(name));
         let error = Diagnostic::error("braces", message, span, "expected `{ ... }`");
         let inner = self.slice(Span::new(self.span_of(first).end, self.span_of(last).start));
@@ -382,9 +409,28 @@ impl Parser<'_> {
         self.report(error);
     }
 
+    /// `x = list` after the `|` of a comprehension.
+    pub(in super::super) fn define_for_from(&mut self) {
+        let message = "the elements of a list are taken with `<-`";
+        let error = Diagnostic::error("comprehension", message, self.here(), "expected `<-`");
+        let text = "write `<-` (a name for a value is `let x = ...`)";
+        self.report(error.with_suggestion(self.here(), "<-", text));
+    }
+
+    /// `first .. last` without brackets, from a token on.
+    pub(in super::super) fn bare_range(&mut self, first: usize) {
+        let span = Span::new(self.span_of(first).start, self.gap().end);
+        let error = Diagnostic::error("range", "a range is written in brackets", span, "not a list");
+        let text = self.slice(span).unwrap_or("0 .. 10");
+        self.report(error.with_suggestion(span, format!("[{text}]"), "write brackets"));
+    }
+
     /// `for x in list` of a comprehension of Python.
     pub(in super::super) fn for_of_python(&mut self) {
         let here = self.here();
+        let follows_bar =
+            self.at.checked_sub(1).is_some_and(|before| self.kind_of(before) == SyntaxKind::Bar);
+        let bar = if follows_bar { "" } else { "| " };
         let message = "there is no `for` in hry; a comprehension has a `|` and `<-`";
         let (name, last) = (self.at + 1, self.at + 6);
         let is_range = self.kind_of(self.at + 2) == SyntaxKind::InKeyword
@@ -394,9 +440,9 @@ impl Parser<'_> {
         let name = self.text_of(name);
         let (end, written) = if is_range {
             let count = self.text_of(self.at + 5);
-            (last, format!("| {name} <- [0 .. {count} - 1]"))
+            (last, format!("{bar}{name} <- [0 .. {count} - 1]"))
         } else {
-            (self.at + 2, format!("| {name} <-"))
+            (self.at + 2, format!("{bar}{name} <-"))
         };
         let span = here.to(self.span_of(end));
         let error = Diagnostic::error("foreign-word", message, span, "not how a comprehension is written");
@@ -441,4 +487,9 @@ impl Parser<'_> {
         let message = format!("expected `<-`, found {}", self.found());
         Diagnostic::error("comprehension", message, self.here(), "expected `<-` and a list")
     }
+}
+
+/// The function of the library that a name means, where it is one.
+fn takes_arguments(name: &str) -> Option<&'static NativeSpec> {
+    NATIVES.iter().find(|native| native.name == name && native.signature.contains("->"))
 }

@@ -13,6 +13,7 @@ pub(crate) fn unknown(text: &str, span: Span) -> Diagnostic {
     };
     let error = Diagnostic::error("unknown-character", message, span, "not a part of the language");
     match text {
+        "\u{b0}" => error.with_suggestion(span, "deg", "degrees are written"),
         "?" => error.with_help("a choice is written `if condition then a else b`"),
         "$" => error.with_help("put the argument in parentheses, or write `argument |> function`"),
         "@" => error.with_help("to name a whole and its parts, match on the name in the body"),
@@ -91,6 +92,17 @@ pub(crate) fn foreign_comment(text: &str, span: Span) -> Diagnostic {
             .with_suggestion(place, "--", "write `--`"),
         _ => error.with_suggestion(place, "--", "write `--`"),
     }
+}
+
+/// `3--2`, at the place of the `--`.
+pub(crate) fn tight_comment(place: Span) -> Diagnostic {
+    let span = Span::new(place.start, place.start + 2);
+    let message = "`--` begins a comment, so the rest of this line is left out";
+    Diagnostic::error("tight-comment", message, span, "a comment from here on").with_suggestion(
+        span,
+        " - -",
+        "to subtract a negative number, put spaces around the first minus",
+    )
 }
 
 /// A text whose second quote is missing.

@@ -113,7 +113,26 @@ impl Parser<'_> {
         self.eat(word);
     }
 
+    /// `if c { a } else { b }`, at the `else`.
+    fn braces_after_condition(&self, start: Mark) -> Option<Diagnostic> {
+        let close = self.at.checked_sub(1).filter(|close| self.kind_of(*close) == SyntaxKind::CloseBrace)?;
+        let first = Self::token_of(start);
+        let open = (first..close).rev().find(|token| self.kind_of(*token) == SyntaxKind::OpenBrace)?;
+        let span = self.span_of(open).to(self.span_of(close));
+        let message = "an `if` needs no braces; what is in braces is a record";
+        let condition = Span::new(self.span_of(first + 1).start, self.span_of(open).start);
+        let inner = self.slice(Span::new(self.span_of(open).end, self.span_of(close).start))?.trim();
+        let error = Diagnostic::error("braces", message, span, "expected `then` and a value")
+            .with_secondary(condition, "the condition");
+        Some(error.with_help(format!("write `then {inner} else ...`, without braces")))
+    }
+
     fn no_word(&self, word: SyntaxKind, start: Mark) -> Diagnostic {
+        if let (SyntaxKind::ThenKeyword, SyntaxKind::ElseKeyword, Some(error)) =
+            (word, self.current, self.braces_after_condition(start))
+        {
+            return error;
+        }
         let word = word.spelling();
         let message = format!("this `if` has no `{word}`");
         let label = format!("expected `{word}`, found {}", self.found());
@@ -272,6 +291,12 @@ impl Parser<'_> {
             "expected a `\\` before the parameters of this",
         );
         let parameters = Span::new(self.span_of(first).start, self.gap().end);
+        let error = if first < self.at {
+            let whole = parameters.to(self.here());
+            Diagnostic::error("missing-backslash", message, whole, "expected a `\\` before this")
+        } else {
+            error
+        };
         match self.slice(parameters).filter(|_| first < self.at) {
             Some(names) => {
                 let whole = parameters.to(self.here());

@@ -149,6 +149,11 @@ impl Parser<'_> {
         let span = self.span_of(token);
         let label = format!("`{text}` is not a word of hry");
         let error = Diagnostic::error("foreign-word", word.message, span, label);
+        let is_block =
+            token.checked_sub(1).is_some_and(|before| self.kind_of(before) == SyntaxKind::OpenBrace);
+        if text == "return" && is_block {
+            return Some(error.with_help("leave out `return` and the braces around it: braces make records"));
+        }
         Some(match word.remedy {
             Remedy::Help(help) => error.with_help(help),
             Remedy::Replace(other) => error.with_suggestion(span, other, format!("write `{other}`")),

@@ -33,11 +33,11 @@ pub(crate) fn tidy(text: &str, base: usize, mut errors: Vec<Diagnostic>) -> Vec<
     // A text that is not closed takes the closing brackets of its line with it.
     let swallowed: Vec<Span> = errors
         .iter()
-        .filter(|error| error.code == "unclosed-text")
+        .filter(|error| matches!(error.code, "unclosed-text" | "tight-comment"))
         .map(|error| error.primary.span)
         .filter(|span| {
-            let inside = text.get(span.start.saturating_sub(base)..span.end.saturating_sub(base));
-            inside.is_some_and(|inside| inside.contains([')', ']', '}']))
+            let rest = text.get(span.start.saturating_sub(base)..).and_then(|rest| rest.lines().next());
+            rest.is_some_and(|rest| rest.contains([')', ']', '}']))
         })
         .collect();
     errors.retain(|error| {
@@ -80,6 +80,7 @@ fn is_lexical(code: &str) -> bool {
         "odd-number",
         "odd-quotes",
         "odd-space",
+        "tight-comment",
         "tight-modulo",
         "unclosed-comment",
         "unclosed-text",

@@ -25,7 +25,7 @@ impl Parser<'_> {
                 self.bump();
                 self.bump();
             }
-            SyntaxKind::Less => {
+            SyntaxKind::Less | SyntaxKind::From if self.is_angle_vector() => {
                 self.fail(Self::angle_brackets);
                 // All that follows is in that notation, too.
                 self.is_quiet |= self.errors.last().is_some_and(|error| error.code == "povray");
@@ -123,10 +123,23 @@ impl Parser<'_> {
         let error = Diagnostic::error("angle-brackets", message, span, "expected a value");
         let end = self.closing_angle();
         let inner = end.and_then(|end| {
-            let range = self.span_of(self.at + 1).start..self.span_of(end).start;
+            // The sign may be a part of what looks like an arrow.
+            let range = span.start + 1..self.span_of(end).start;
             Some((self.span_of(end).end, self.slice(Span::from(range))?))
         });
+        let is_color = self
+            .at
+            .checked_sub(1)
+            .is_some_and(|before| matches!(self.text_of(before), "rgb" | "rgbf" | "rgbt"));
         match inner {
+            Some((end, inner)) if is_color => {
+                let words: Vec<&str> = inner.split(',').map(str::trim).collect();
+                error.with_suggestion(
+                    Span::new(span.start, end),
+                    words.join(" "),
+                    "the parts of a colour are arguments",
+                )
+            }
             Some((end, inner)) => {
                 let whole = Span::new(span.start, end);
                 error.with_suggestion(whole, format!("({})", inner.trim()), "write parentheses")
@@ -136,7 +149,7 @@ impl Parser<'_> {
     }
 
     /// `sphere { <0, 1, 0>, 2 ... }`, the name at a token.
-    pub(super) fn povray(&self, name: usize) -> Diagnostic {
+    pub(in super::super) fn povray(&self, name: usize) -> Diagnostic {
         let word = self.text_of(name);
         let message = "this is the notation of POV-Ray; in hry the fields of a thing have names";
         let label = format!("what {} takes is written `{{ field = value, ... }}`", quoted(word));
@@ -158,8 +171,8 @@ impl Parser<'_> {
                 "for example `sphere { center = (0, 1, 0), radius = 2, material = classic { color = #ff0000 } }`"
             }
         });
-        let note =
-            "what is to be seen stands in one record: `scene = { lights = [ ... ], objects = [ ... ] }`";
+        let note = "what is to be seen stands in one record: `scene = { lights = [ ... ], objects = [ ... ] }`; colours, textures and \
+             moves inside a statement are not carried over";
         let error = if help.contains('(') {
             error.with_note(
                 "the z axis points towards you here, and away from you in POV-Ray: its sign changes",
@@ -168,6 +181,29 @@ impl Parser<'_> {
             error
         };
         error.with_note(note).with_help(help)
+    }
+
+    /// Whether a vector in angle brackets begins here.
+    pub(in super::super) fn is_angle_vector(&self) -> bool {
+        if !matches!(self.current, SyntaxKind::Less | SyntaxKind::From) {
+            return false;
+        }
+        let is_first = self.is(SyntaxKind::Less) && self.nothing_before();
+        is_first
+            || self.closing_angle().is_some_and(|end| {
+                (self.at..end).filter(|token| self.kind_of(*token) == SyntaxKind::Comma).count() == 2
+            })
+    }
+
+    /// Whether no value is directly before this, so that an operator cannot be meant.
+    fn nothing_before(&self) -> bool {
+        use SyntaxKind as S;
+        self.at.checked_sub(1).is_none_or(|before| {
+            matches!(
+                self.kind_of(before),
+                S::OpenBrace | S::OpenParen | S::OpenBracket | S::Define | S::Comma
+            )
+        })
     }
 
     /// The `>` that seems to close a `<`.
@@ -475,6 +511,17 @@ impl Parser<'_> {
         match what {
             "number" if operand == "mod" => error.with_help("the remainder of a division is `a % b`"),
             "number" if operand == "div" => error.with_help("the whole quotient is `floor (a / b)`"),
+            "number"
+                if self.is(SyntaxKind::Name)
+                    && self.open > 0
+                    && self.around == Around::Binding
+                    && matches!(
+                        self.kind_ahead(1),
+                        SyntaxKind::OpenParen | SyntaxKind::Number | SyntaxKind::OpenBracket
+                    ) =>
+            {
+                error.with_help(format!("is it the next field? Then `, {operand} = ...`"))
+            }
             "number" if self.is(SyntaxKind::Name) && self.kind_ahead(1) == SyntaxKind::OpenBrace => {
                 error.with_help("is the number one too many, or a comma missing?")
             }

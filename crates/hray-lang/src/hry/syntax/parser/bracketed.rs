@@ -176,6 +176,15 @@ impl Parser<'_> {
     /// `{ a = 1, b }`, `{ record | a = 1 }`
     pub(super) fn record(&mut self) -> Done {
         let start = self.mark();
+        if self.is_povray_here() {
+            self.fail(|parser| parser.povray(parser.at - 1));
+            let is_quiet = std::mem::replace(&mut self.is_quiet, true);
+            let outer = self.open();
+            self.skip_until(Set::of(&[]));
+            self.close(SyntaxKind::CloseBrace, outer);
+            self.is_quiet = is_quiet;
+            return self.error_expr(start);
+        }
         let outer = self.open();
         let mut height = 0;
         let mut kind = SyntaxKind::RecordExpr;

@@ -25,6 +25,19 @@ impl Parser<'_> {
         if self.is(SyntaxKind::LetKeyword) {
             return self.let_qualifier();
         }
+        if self.is_for_of_python() {
+            self.for_of_python();
+            self.bump();
+        }
+        let is_first = self.at.checked_sub(1).is_some_and(|before| self.kind_of(before) == SyntaxKind::Bar);
+        if is_first && self.is(SyntaxKind::Name) && self.kind_ahead(1) == SyntaxKind::Define {
+            self.pattern(false);
+            self.define_for_from();
+            self.bump();
+            let list = self.inside(Around::Condition, Self::expr);
+            self.node(SyntaxKind::Generator, start);
+            return list.height + 1;
+        }
         if self.kind_ahead(1) == SyntaxKind::InKeyword && self.is(SyntaxKind::Name) {
             self.pattern(false);
             self.in_for_from();
@@ -39,7 +52,14 @@ impl Parser<'_> {
                 self.fail(Self::no_generator);
             }
             self.eat(SyntaxKind::From);
-            let list = self.inside(Around::Condition, Self::expr);
+            let (first, begin) = (self.at, self.mark());
+            let mut list = self.inside(Around::Condition, Self::expr);
+            if self.is(SyntaxKind::DotDot) {
+                self.bump();
+                self.inside(Around::Condition, Self::expr);
+                self.bare_range(first);
+                list = self.error_expr(begin);
+            }
             self.node(SyntaxKind::Generator, start);
             return list.height + 1;
         }

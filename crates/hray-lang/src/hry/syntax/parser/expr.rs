@@ -53,6 +53,7 @@ impl Parser<'_> {
                 SyntaxKind::Backslash | SyntaxKind::LetKeyword | SyntaxKind::IfKeyword => {
                     self.bare_argument()
                 }
+                SyntaxKind::Less | SyntaxKind::From if self.is_angle_vector() => self.postfix(),
                 kind if self.begins_argument(kind) => {
                     if !self.check_application(function) {
                         return function;

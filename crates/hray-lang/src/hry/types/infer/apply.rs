@@ -122,6 +122,22 @@ impl<'p> Infer<'p> {
         let mut complaints =
             new.filter(|(_, error)| error.code == "wrong-argument" && error.primary.span == argument.span);
         let Some((complaint, _)) = complaints.next() else { return Some(()) };
+        if let Some((calls, is_list)) = self.constructor_calls(call, from) {
+            self.suggest_calls(complaint, call.arguments, &calls, is_list);
+            return None;
+        }
+        if let Some(constructor) =
+            index.checked_sub(1).and_then(|before| self.constructor_of(call.arguments.get(before)?))
+            && let Some(error) = self.diagnostics.get_mut(complaint)
+        {
+            let field = constructor.fields.first().map_or("field", |field| field.name);
+            let name = constructor.name;
+            error.notes.clear();
+            error.help = Some(format!(
+                "`{name}` takes a record; a function that takes one value is `(\\x -> {name} {{ {field} = x }})`"
+            ));
+            return None;
+        }
         if self.is_function_after_pipe(call, argument) {
             self.suggest_pipe(complaint, argument);
             return None;
@@ -148,6 +164,30 @@ impl<'p> Infer<'p> {
         }
         call.refused = Some(Refused { found, wanted: from, complaint });
         Some(())
+    }
+
+    /// Of `difference cube {} sphere {}`: each constructor with its record, in parentheses; and whether they are elements of
+    /// one list.
+    fn constructor_calls(&self, call: &Call<'_, 'p>, wanted: Ty) -> Option<(Vec<String>, bool)> {
+        let mut rest = call.arguments;
+        let mut calls = Vec::new();
+        let mut found = false;
+        while let [first, others @ ..] = rest {
+            let text = self.quoted(first.span)?;
+            match (self.constructor_of(first), others) {
+                (Some(_), [record, others @ ..]) if matches!(record.kind, ExprKind::Record(_)) => {
+                    calls.push(format!("{text} {}", self.quoted(record.span)?));
+                    (found, rest) = (true, others);
+                }
+                _ => {
+                    calls.push(text.to_owned());
+                    rest = others;
+                }
+            }
+        }
+        let is_list = matches!(self.types.store.get(wanted), Node::List(_));
+        let takes = self.types.store.parameters(call.whole).0.len();
+        (found && (is_list || calls.len() == takes)).then_some((calls, is_list))
     }
 
     /// Whether `group a b` probably meant `group [a, b]`: a function of one list gets several of its elements.
@@ -225,6 +265,21 @@ impl<'p> Infer<'p> {
         why: Why<'p>,
     ) -> Option<()> {
         let vector = if parts.len() == 2 { Ty::VEC2 } else { Ty::VEC3 };
+        if let Node::List(of) = self.types.store.get(from) {
+            let of = *of;
+            let types: Vec<Ty> = parts.iter().map(|part| self.expr(part, None)).collect();
+            let is_element = |ty: &Ty| {
+                self.types
+                    .store
+                    .head(*ty)
+                    .is_some_and(|head| head != Head::Number && self.types.store.heads(of).has(head))
+            };
+            if types.iter().all(is_element) {
+                let error = self.list_in_parentheses(call.callee, argument);
+                self.report(error);
+                return None;
+            }
+        }
         let heads = self.types.store.heads(from);
         let takes_vector = self.types.store.head(vector).is_some_and(|head| heads.has(head));
         let takes_several = self.types.store.parameters(call.whole).0.len() >= parts.len();

@@ -183,6 +183,50 @@ impl<'p> Infer<'p> {
         }
     }
 
+    /// Adds to a complaint that calls of constructors need parentheses, or are the elements of a list.
+    pub(in crate::hry::types) fn suggest_calls(
+        &mut self,
+        complaint: usize,
+        arguments: &[&'p Expr],
+        calls: &[String],
+        is_list: bool,
+    ) {
+        let (Some(first), Some(last)) = (arguments.first(), arguments.last()) else { return };
+        let span = first.span.to(last.span);
+        let (replacement, text) = if is_list {
+            (format!("[{}]", calls.join(", ")), "several are written as a list, in brackets:")
+        } else {
+            let wrapped =
+                calls.iter().map(|call| if call.contains(' ') { format!("({call})") } else { call.clone() });
+            (wrapped.collect::<Vec<_>>().join(" "), "an argument that is itself a call needs parentheses:")
+        };
+        if let Some(error) = self.diagnostics.get_mut(complaint) {
+            error.help = None;
+            error.notes.clear();
+            error.suggestion = Some(Suggestion { span, replacement, text: text.into() });
+        }
+    }
+
+    /// `group (a, b)`
+    pub(in crate::hry::types) fn list_in_parentheses(&self, callee: &Expr, argument: &Expr) -> Diagnostic {
+        let name = self.quoted(callee.span).unwrap_or("this function");
+        let message = format!("`{name}` takes a list, and lists are written in brackets");
+        let error = Diagnostic::error(
+            "wrong-argument",
+            message,
+            argument.span,
+            "parentheses make a vector of numbers",
+        );
+        let inner = self.quoted(argument.span).and_then(|text| text.strip_prefix('(')?.strip_suffix(')'));
+        match inner {
+            Some(inner) => {
+                let space = if callee.span.end == argument.span.start { " " } else { "" };
+                error.with_suggestion(argument.span, format!("{space}[{inner}]"), "write brackets:")
+            }
+            None => error.with_help("write `[a, b]`"),
+        }
+    }
+
     /// Adds to a complaint about `g` in `x |> f a g b` that a `|>` is missing before it.
     pub(in crate::hry::types) fn suggest_pipe(&mut self, complaint: usize, argument: &Expr) {
         if let Some(error) = self.diagnostics.get_mut(complaint) {

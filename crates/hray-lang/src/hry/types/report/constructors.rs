@@ -8,7 +8,7 @@ use super::super::unknown::{field_synonym, near};
 use super::hints::field_for;
 use super::mismatch::field_words;
 use crate::diagnostic::{Diagnostic, Span};
-use crate::hry::ast::{Expr, FieldValue};
+use crate::hry::ast::{Expr, ExprKind, FieldValue};
 use crate::hry::library::{CONSTRUCTORS, Constructor, FieldSpec, FieldType};
 use crate::hry::program::listed;
 use crate::hry::sources::STANDARD_BASE;
@@ -36,6 +36,9 @@ impl<'p> Infer<'p> {
         let all = format!("{whose} has {}", listed(&names));
         let near = meant_field(constructor, name);
         let error = match near {
+            _ if other_measure(owner, name).is_some() => {
+                error.with_note(all).with_help(other_measure(owner, name).unwrap_or_default())
+            }
             Some("material") if matches!(name, "color" | "colour" | "texture" | "pigment" | "reflection" | "shine") => error
                 .with_help(format!("colours and the like belong to the material: `{owner} {{ material = classic {{ color = ... }} }}`"))
                 .with_note(all),
@@ -231,7 +234,14 @@ impl<'p> Infer<'p> {
                     None => self.function_hint(error, span, ty, taken),
                 };
             }
-            let (_, result) = self.types.store.parameters(ty);
+            let (parameters, result) = self.types.store.parameters(ty);
+            let result_fits = self.types.store.head(result).is_some_and(|head| allowed.heads.has(head));
+            if result_fits && parameters.len() > 1 {
+                return self.unfinished_body(error, expr, &parameters);
+            }
+            if self.types.store.head(result) == Some(Head::Vec3) && field.kind == FieldType::Color {
+                return error.with_help("a colour is made of a vector v by `rgb v.x v.y v.z`");
+            }
             let plain = plain.map_or("something else", Head::words);
             let gives = format!("the function gives {}, but has to give {plain}", self.words(result));
             return error.with_help(gives);
@@ -264,6 +274,24 @@ impl<'p> Infer<'p> {
         ))
     }
 
+    /// `\\h -> checker white black`: the body is a function itself.
+    fn unfinished_body(&self, error: Diagnostic, expr: Option<&'p Expr>, parameters: &[Ty]) -> Diagnostic {
+        let missing = parameters.len() - 1;
+        let is_hit = parameters.get(1).is_some_and(|ty| self.types.store.head(*ty) == Some(Head::Hit));
+        if let (Some(ExprKind::Lambda { parameters: names, body }), 1, true) =
+            (expr.map(|expr| &expr.kind), missing, is_hit)
+            && let (Some(name), ExprKind::Apply { .. } | ExprKind::Name(_)) =
+                (names.first().and_then(|name| self.quoted(name.span)), &body.kind)
+        {
+            let text = "what varies over a surface still needs the hit:";
+            return error.with_suggestion(Span::at(body.span.end), format!(" {name}"), text);
+        }
+        let shown: Vec<String> =
+            parameters.iter().skip(1).map(|ty| format!("`{}`", self.show(*ty))).collect();
+        let count = super::super::infer::counted(missing, "argument");
+        error.with_help(format!("the body still needs {count} ({}) to be a value", shown.join(", ")))
+    }
+
     /// For a call that lacks arguments and would then be what the field takes.
     fn unfinished(&self, expr: Option<&'p Expr>, ty: Ty, field: &'static FieldSpec) -> Option<String> {
         let (callee, arguments) = crate::hry::program::application(expr?);
@@ -272,7 +300,8 @@ impl<'p> Infer<'p> {
         let fits = store.head(result).is_some_and(|head| Allowed::of(field).heads.has(head));
         let name = self.quoted(callee.span)?;
         let is_varying = parameters.iter().any(|parameter| store.head(*parameter) == Some(Head::Hit));
-        if arguments.is_empty() || !fits || is_varying {
+        let takes_number = parameters.first().is_some_and(|first| store.head(*first) == Some(Head::Number));
+        if !fits || is_varying || arguments.is_empty() && !takes_number {
             return None;
         }
         let shown: Vec<String> = parameters.iter().map(|ty| format!("`{}`", self.show(*ty))).collect();
@@ -287,7 +316,8 @@ impl<'p> Infer<'p> {
         } else {
             String::new()
         };
-        Some(format!("`{name}` still needs {count} ({}){varying}", shown.join(", ")))
+        let more = if arguments.is_empty() { "" } else { "still " };
+        Some(format!("`{name}` {more}needs {count} ({}){varying}", shown.join(", ")))
     }
 
     fn function_hint(&self, error: Diagnostic, span: Span, ty: Ty, taken: Ty) -> Diagnostic {
@@ -351,6 +381,33 @@ impl<'p> Infer<'p> {
 /// The field that was probably meant.
 fn meant_field(constructor: &'static Constructor, name: &str) -> Option<&'static str> {
     near(name, constructor.fields.iter().map(|field| field.name)).or_else(|| field_synonym(constructor, name))
+}
+
+/// What to do about a field that another program measures differently.
+fn other_measure(owner: &str, name: &str) -> Option<&'static str> {
+    Some(match (owner, name.to_lowercase().as_str()) {
+        ("sphere" | "cylinder" | "disc", "diameter") => {
+            "the radius is half of the diameter: `radius = d / 2`"
+        }
+        ("classic", "roughness") => {
+            "`shine` is large where a surface is smooth: 10 is a broad and dull highlight, 200 a small and sharp one"
+        }
+        ("box", "width" | "height" | "depth" | "length") => {
+            "the three sides are one vector: `size = (1, 2, 3)`"
+        }
+        ("scene", "width" | "height") => "width and height are one vector: `size = (800, 600)`",
+        ("box", "min" | "max" | "min_corner" | "max_corner") => {
+            "a box is given by its sides and its centre: `size = (2, 2, 2), center = (0, 1, 0)`"
+        }
+        ("plane", "x" | "y" | "z" | "distance" | "d") => {
+            "a plane has a direction at right angles to it and a distance along that: `normal = up, offset = -1`"
+        }
+        ("triangles", "vertices") => "the vertices are called `points`",
+        ("triangles", "indices" | "triangles") => {
+            "the corners of each face are in `faces`: `faces = [[0, 1, 2]]`"
+        }
+        _ => return None,
+    })
 }
 
 /// Another constructor, of the same kind of thing, that has such a field.

@@ -116,7 +116,9 @@ impl<'p> Infer<'p> {
 fn hit_synonym(name: &str) -> Option<&'static str> {
     Some(match name {
         "position" | "pos" | "point" | "local" | "object" => "p",
-        "x" | "y" | "z" => "p",
+        "x" => "p.x",
+        "y" => "p.y",
+        "z" => "p.z",
         "n" => "normal",
         "u" | "v" | "st" | "texcoord" => "uv",
         "t" => "time",

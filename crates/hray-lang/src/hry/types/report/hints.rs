@@ -9,6 +9,7 @@ use crate::hry::library::{CONSTRUCTORS, Constructor, FieldType};
 use crate::hry::program::{Global, application};
 use crate::hry::types::names::Meaning;
 use crate::hry::types::scheme::Binding;
+use std::sync::Arc;
 
 impl<'p> Infer<'p> {
     /// Adds what to do, where that can be told from the types.
@@ -32,15 +33,33 @@ impl<'p> Infer<'p> {
         {
             return self.other_parameter(error, span, (*given, *taken), found, expected);
         }
+        let varies =
+            |ty: Ty| matches!(store.get(ty), Node::Function(from, _) if store.head(*from) == Some(Head::Hit));
+        if matches!(why, Some(Why::Branch { .. } | Why::Arm { .. } | Why::Item { .. }))
+            && varies(found) != varies(expected)
+        {
+            return error.with_help(
+                "one of them varies over the surface, and is a function of the hit; give it the hit, inside a function of \
+                 one: `\\h -> if c then checker white black h else blue`",
+            );
+        }
         if let (Node::List(of), Some(found)) = (store.get(expected), store.head(found))
             && store.head(*of) == Some(found)
         {
+            if matches!(why, Some(Why::Field { field, .. }) if field.name == "faces") {
+                return error.with_help("each face is a list of its own: `faces = [[0, 1, 2]]`");
+            }
             return self.suggest(
                 error,
                 span,
                 |text| format!("[{text}]"),
                 "a list of one is written in brackets:",
             );
+        }
+        if let (Node::Record(expected_fields), Some(Why::Argument { callee, .. })) =
+            (store.get(expected), why)
+        {
+            return self.record_of_a_function(error, callee, found, expected_fields);
         }
         if let (Node::List(of), Some(vector @ (Head::Vec2 | Head::Vec3))) = (store.get(found), expected_head)
             && store.heads(*of).has(Head::Number)
@@ -204,6 +223,52 @@ impl<'p> Infer<'p> {
         self.suggest(error.with_note(each), span, with, "to make one shape of them, which moves as a whole:")
     }
 
+    /// `wood { light = brown }`, `tiles white black`: a function of a record gets something else.
+    fn record_of_a_function(
+        &self,
+        error: Diagnostic,
+        callee: &Expr,
+        found: Ty,
+        expected: &[(Arc<str>, Ty)],
+    ) -> Diagnostic {
+        let name = self.quoted(callee.span).unwrap_or("f");
+        let given: &[(Arc<str>, Ty)] = match self.types.store.get(found) {
+            Node::Record(fields) => fields,
+            _ => &[],
+        };
+        let is_given = |field: &str| given.iter().any(|(name, _)| **name == *field);
+        let missing: Vec<&str> =
+            expected.iter().map(|(name, _)| &**name).filter(|name| !is_given(name)).collect();
+        let mut error = error;
+        error.notes.clear();
+        if !given.is_empty() && !missing.is_empty() {
+            error = error.with_note(format!("missing: {}", crate::hry::program::listed(&missing)));
+        }
+        let surplus: Vec<&str> = given
+            .iter()
+            .map(|(name, _)| &**name)
+            .filter(|name| !expected.iter().any(|(other, _)| **other == **name))
+            .collect();
+        if !surplus.is_empty() {
+            error = error.with_note(format!("not known: {}", crate::hry::program::listed(&surplus)));
+        }
+        let fields: Vec<String> =
+            expected.iter().map(|(name, ty)| format!("{name} = {}", self.sample(*ty))).collect();
+        error.with_help(format!("all fields are needed, for example: `{name} {{ {} }}`", fields.join(", ")))
+    }
+
+    /// A value of a type.
+    fn sample(&self, ty: Ty) -> &'static str {
+        match self.types.store.head(ty) {
+            Some(Head::Number) => "0.5",
+            Some(Head::Color) => "white",
+            Some(Head::Vec3) => "(0, 1, 0)",
+            Some(Head::Vec2) => "(1, 1)",
+            Some(Head::Bool) => "true",
+            _ => "...",
+        }
+    }
+
     /// `difference [a, b]`
     fn two_of_a_list(&self, expr: Option<&'p Expr>, why: Option<Why<'p>>) -> Option<(String, &'static str)> {
         let (Some(Why::Argument { callee, index: 0, .. }), ExprKind::List(items)) = (why, &expr?.kind) else {
@@ -327,6 +392,15 @@ impl<'p> Infer<'p> {
             (H::Number, H::Hit) if matches!(why, Some(Why::Argument { .. })) => error,
             (H::Color, H::Number) => error.with_help("a colour has the numbers `c.r`, `c.g` and `c.b`"),
             (H::Number, H::Text) => self.shown(error, expr, span, why),
+            (H::Text, H::Image) => self.suggest(
+                error,
+                span,
+                |text| in_place(format!("image {text}"), why),
+                "a file is read as a picture by `image`:",
+            ),
+            (H::Shape | H::Light | H::Camera | H::Material, H::Number) if self.is_called(why, "rotate") => {
+                error.with_help("`rotate` takes an axis and an angle: `rotate up 30deg`")
+            }
             (H::Text, H::Number) => error.with_help("numbers have no quotes"),
             (H::Number, H::Bool) => error.with_help("compare it with something, for example `x > 0` or `x == 1`"),
             (H::Hit, H::Vec3) => self.suggest(error, span, |h| format!("{h}.p"), "the place that was hit is the field `p`:"),

@@ -82,6 +82,12 @@ impl Infer<'_> {
             return;
         }
         let span = callee.span.to(last.span);
+        // `rgb 200 100 50 / 255` divides what it makes.
+        let file = self.sources.file(span.end);
+        let rest = file.and_then(|file| file.text.get(span.end - file.base..)).unwrap_or("");
+        if rest.trim_start().starts_with(['/', '*']) {
+            return;
+        }
         let message = "`rgb` takes red, green and blue as linear light from 0 to 1, not from 0 to 255";
         let [r, g, b] = components.map(|value| value as u8);
         let color = format!("#{r:02x}{g:02x}{b:02x}");
