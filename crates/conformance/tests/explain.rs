@@ -47,7 +47,9 @@ fn adds_up(name: &str, description: &Description, found: &PixelExplanation) {
         let Some(hit) = &ray.hit else { continue };
         let mut sum = Rgb::BLACK;
         for light in hit.lights.iter().rev() {
-            assert!(same(light.contribution, light.diffuse + light.highlight) || light.highlight == Rgb::BLACK);
+            assert!(
+                same(light.contribution, light.diffuse + light.highlight) || light.highlight == Rgb::BLACK
+            );
             if matches!(light.reach, Reach::Shadowed { .. }) {
                 assert_eq!(light.contribution, Rgb::BLACK);
             }
@@ -93,7 +95,8 @@ fn random_scenes_by_both_rules() {
 
 fn scenes(folder: &Path) -> Vec<PathBuf> {
     let entries = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
-    let mut paths: Vec<PathBuf> = entries.filter(|path| path.extension().is_some_and(|e| e == "hry")).collect();
+    let mut paths: Vec<PathBuf> =
+        entries.filter(|path| path.extension().is_some_and(|e| e == "hry")).collect();
     paths.sort();
     paths
 }

@@ -69,7 +69,7 @@ impl Text<'_> {
             self.line(
                 0,
                 &format!(
-                    "\nThe rays are those through the middle of the samples, which alone gives {color}."
+                    "\nWhat follows is the one ray through the middle of the samples, which alone gives {color}."
                 ),
             );
         }
@@ -129,7 +129,12 @@ impl Text<'_> {
     fn hit(&mut self, ray: &Ray, hit: &Hit, depth: usize) {
         let distance =
             ray.distance.map_or_else(String::new, |distance| format!(", {} away", short(distance)));
-        let inside = if hit.inside { ", seen from inside" } else { "" };
+        let inside = match (hit.inside, hit.object.kind) {
+            (false, _) => "",
+            // These have no inside, or need not have one.
+            (true, "plane" | "mesh") => ", seen from behind",
+            (true, _) => ", seen from inside",
+        };
         self.line(depth, &format!("meets {}{distance}{inside}", named(&hit.object)));
         let material = &hit.material;
         let mut surface = format!("surface {}", self.color(material.color));
