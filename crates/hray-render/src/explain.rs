@@ -7,7 +7,8 @@ use hray_core::{DVec3, Description, NoiseTables, Resolution, Rgb};
 use std::fmt;
 use std::num::NonZeroU32;
 
-/// So many rays of a pixel are told of; the others are followed, and counted.
+/// So many rays of a pixel are told of at most: where there are more, all those of as many levels as fit. The others are followed,
+/// and counted.
 pub const MAX_EXPLAINED_RAYS: usize = 4096;
 
 /// How a pixel came by its colour.
@@ -240,7 +241,12 @@ pub fn explain(
         let (integrator, color, recorder) = pixel(integrator, &settings, Recorder::of_samples())?;
         (integrator, Some((color, recorder)))
     };
-    let (_, own_color, recorder) = pixel(integrator, &own, Recorder::of_rays(owners.clone()))?;
+    let recorder = Recorder::of_rays(owners.clone(), usize::MAX);
+    let (integrator, own_color, mut recorder) = pixel(integrator, &own, recorder)?;
+    if let Some(deepest) = recorder.deepest_that_fits() {
+        // Of too many rays those near the pixel tell most, so it is done again without the deeper ones.
+        recorder = pixel(integrator, &own, Recorder::of_rays(owners.clone(), deepest))?.2;
+    }
     let (rays, omitted) = recorder.rays().ok_or(ExplainError::Sum)?;
     if rays.first().is_some_and(|ray| !same(ray.color, own_color)) {
         return Err(ExplainError::Sum);

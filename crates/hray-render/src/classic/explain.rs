@@ -63,6 +63,10 @@ struct Rays {
     owners: Owners,
     list: Vec<ExplainedRay>,
     omitted: u64,
+    /// Rays are kept up to this level.
+    deepest: usize,
+    /// How many rays there are at each level.
+    levels: Vec<u64>,
     /// The rays that are not finished, each led to by the one before.
     open: Vec<Open>,
     /// Of what kind the next ray is.
@@ -93,12 +97,14 @@ impl Recorder {
         Self { what: What::Samples(BTreeMap::new()) }
     }
 
-    /// Of the rays of a single point.
-    pub(crate) fn of_rays(owners: Owners) -> Self {
+    /// Of the rays of a single point, down to a level.
+    pub(crate) fn of_rays(owners: Owners, deepest: usize) -> Self {
         let rays = Rays {
             owners,
             list: Vec::new(),
             omitted: 0,
+            deepest,
+            levels: Vec::new(),
             open: Vec::new(),
             next: RayKind::Camera,
             adds_up: true,
@@ -118,6 +124,18 @@ impl Recorder {
             by_object.into_iter().map(|(object, samples)| Seen { object, samples }).collect();
         seen.sort_by_key(|seen| std::cmp::Reverse(seen.samples));
         seen
+    }
+
+    /// Where rays had to be left out: the deepest level down to which all can be kept.
+    pub(crate) fn deepest_that_fits(&self) -> Option<usize> {
+        let What::Rays(rays) = &self.what else { return None };
+        let mut total = 0u64;
+        let fits = rays.levels.iter().take_while(|count| {
+            total = total.saturating_add(**count);
+            total <= MAX_EXPLAINED_RAYS as u64
+        });
+        let fits = fits.count();
+        (rays.omitted > 0).then_some(fits.saturating_sub(1))
     }
 
     /// The rays, and how many were left out; none where they do not add up.
@@ -222,7 +240,13 @@ impl Rays {
             let material = scene.material(group.leaf);
             [material.reflection, material.transmission].map(|share| share.of(&frame.fields.get(), 0))
         });
-        if self.list.len() == MAX_EXPLAINED_RAYS {
+        if self.levels.len() <= level {
+            self.levels.resize(level + 1, 0);
+        }
+        if let Some(count) = self.levels.get_mut(level) {
+            *count += 1;
+        }
+        if level > self.deepest || self.list.len() == MAX_EXPLAINED_RAYS {
             self.omitted += 1;
             let sum = color(frame.hit_color.get());
             self.open.push(Open { place: None, kind, sum, weight, side, shares });
