@@ -20,6 +20,7 @@ mod machine;
 mod mesh;
 mod natives;
 mod order;
+mod origins;
 mod patterns;
 mod place;
 mod scalar;
@@ -28,4 +29,5 @@ mod texture;
 mod value;
 
 pub use limits::Limits;
+pub use origins::{Origin, Origins};
 pub use scene::{Evaluated, Evaluator, evaluate};
