@@ -79,6 +79,20 @@ impl Round {
         }
     }
 
+    /// The centre and the radius of a sphere around it.
+    pub(super) fn sphere(&self) -> (DVec3, f64) {
+        match self {
+            Self::Frustum(frustum) => {
+                let half = 0.5 * frustum.height;
+                let [(_, a), (_, b)] = frustum.circles;
+                let radius = a.max(b);
+                (frustum.middle, (half * half + radius * radius).sqrt())
+            }
+            Self::Disc(disc) => (disc.center, disc.radius),
+            Self::Torus(torus) => torus.sphere(),
+        }
+    }
+
     /// The corners of a box around it.
     pub(super) fn corners(&self) -> [DVec3; 2] {
         match self {

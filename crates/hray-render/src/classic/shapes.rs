@@ -52,10 +52,12 @@ pub(super) enum Prepared {
         max: DVec3,
         nearest: f64,
     },
-    /// One ray at a time. A hit must be farther away than `nearest`.
+    /// One ray at a time, of those that meet a sphere around it. A hit must be farther away than `nearest`.
     Round {
         shape: Arc<Round>,
         nearest: f64,
+        middle: DVec3,
+        squared_reach: f64,
     },
     /// Rays go through its own tree, one at a time, and not by [`Prepared::hit`].
     Mesh(Arc<PreparedMesh>),
@@ -119,7 +121,10 @@ impl Prepared {
             }
             Shape::Frustum(_) | Shape::Disc(_) | Shape::Torus(_) => {
                 let nearest = if thesis { NEAREST } else { 0.0 };
-                Self::Round { shape: Arc::new(Round::new(shape)?), nearest }
+                let shape = Arc::new(Round::new(shape)?);
+                let (middle, reach) = shape.sphere();
+                // A little more, for the rounding of the test; infinite and odd numbers let everything through.
+                Self::Round { shape, nearest, middle, squared_reach: reach * reach * (1.0 + 1e-9) }
             }
             Shape::Csg(_) | Shape::Mesh(_) => return None,
         })
@@ -197,12 +202,23 @@ impl Prepared {
                 let met = enter.simd_le(exit) & distance.simd_gt(nearest);
                 Some((distance, met & distance.simd_lt(f64::INFINITY)))
             }
-            Self::Round { ref shape, nearest } => {
+            Self::Round { ref shape, nearest, middle, squared_reach } => {
+                let from = rays.origin.sub(Vec3::splat(simd, middle));
+                let b = from.dot(rays.direction);
+                let close = from.sub(rays.direction.scale(b / (rays.double_a * 0.5)));
+                let behind = b.simd_gt(0.0) & from.dot(from).simd_gt(squared_reach);
+                let away = behind | close.dot(close).simd_gt(squared_reach);
+                let mut lanes = !(away.to_bitmask() as u32) & ((1 << Lanes::<S>::LEN) - 1);
+                if lanes == 0 {
+                    return None;
+                }
                 let mut distances = [f64::NAN; MAX_LANES];
-                for (lane, distance) in distances.iter_mut().enumerate().take(Lanes::<S>::LEN) {
+                while lanes != 0 {
+                    let lane = lanes.trailing_zeros() as usize;
                     if let Some(found) = shape.hit(&ray_of(rays, lane), nearest) {
-                        *distance = found;
+                        distances[lane] = found;
                     }
+                    lanes &= lanes - 1;
                 }
                 let distance = Lanes::<S>::from_slice(simd, &distances[..Lanes::<S>::LEN]);
                 Some((distance, distance.simd_eq(distance)))

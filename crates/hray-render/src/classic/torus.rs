@@ -141,6 +141,10 @@ impl PreparedTorus {
         [self.axis.angle(out), if v < 1.0 { v } else { 0.0 }]
     }
 
+    pub(super) fn sphere(&self) -> (DVec3, f64) {
+        (self.center, self.radius + self.tube)
+    }
+
     pub(super) fn corners(&self) -> [DVec3; 2] {
         let reach = self.axis.reach() * self.radius + self.tube;
         [self.center - reach, self.center + reach]
