@@ -73,6 +73,11 @@ impl Engine {
             // What is shown is up to the page.
             Ok(Request::View(_) | Request::Stop {}) => Ok(json!({})),
             Ok(Request::RenderFile { .. }) => return String::new(),
+            Ok(Request::Explain { of, x, y, time }) => {
+                let work = self.session.work(&View { doc: of.doc.clone(), time, ..View::default() });
+                let work = work.ok_or_else(|| Refusal::new(format!("{:?} is not open", of.doc)));
+                work.and_then(|work| work.explain(x, y, &self.control))
+            }
             Ok(request) => self.session.answer(&request),
             Err(refusal) => Err(refusal),
         };

@@ -8,6 +8,7 @@
 //! [`protocol`] has the messages.
 
 mod examples;
+mod explain;
 mod files;
 mod folder;
 mod frame;

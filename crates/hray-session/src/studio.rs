@@ -4,13 +4,14 @@
 mod film;
 mod worker;
 
-use crate::protocol::{Event, Message, Refusal, Request, View, answer};
+use crate::protocol::{Event, Message, Refusal, Request, View, answer, file_message};
+use crate::scene::Work;
 use crate::session::Session;
 use serde_json::json;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
 use std::thread::{self, JoinHandle};
-use worker::{Desk, FileJob, Job};
+use worker::{Desk, Job};
 
 /// What goes to the page.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -107,12 +108,18 @@ impl Studio {
                 Ok(Some(json!({})))
             }
             Request::RenderFile { of, time, format } => {
-                let view = self.view.as_ref().filter(|view| view.doc == of.doc);
-                let overrides = view.map(|view| view.overrides.clone()).unwrap_or_default();
-                let view = View { doc: of.doc.clone(), time, overrides, ..View::default() };
-                let work = self.session.work(&view);
-                let work = work.ok_or_else(|| Refusal::new(format!("{:?} is not open", of.doc)))?;
-                worker::render_file(FileJob { id, work, format }, self.desk.clone(), self.send.clone())?;
+                let work = self.work_at(&of.doc, time)?;
+                worker::aside(id, self.desk.clone(), self.send.clone(), move |control| {
+                    let file = work.file(&format, control)?;
+                    Ok((json!({ "name": file.name, "mime": file.mime }), Some(file_message(id, &file.bytes))))
+                })?;
+                Ok(None)
+            }
+            Request::Explain { of, x, y, time } => {
+                let work = self.work_at(&of.doc, time)?;
+                worker::aside(id, self.desk.clone(), self.send.clone(), move |control| {
+                    Ok((work.explain(x, y, control)?, None))
+                })?;
                 Ok(None)
             }
             Request::Edit { ref doc, .. } => {
@@ -135,6 +142,14 @@ impl Studio {
             }
             request => self.session.answer(&request).map(Some),
         }
+    }
+
+    /// A document at a moment, with the definitions replaced that are replaced in what is shown.
+    fn work_at(&self, doc: &str, time: f64) -> Result<Work, Refusal> {
+        let view = self.view.as_ref().filter(|view| view.doc == doc);
+        let overrides = view.map(|view| view.overrides.clone()).unwrap_or_default();
+        let view = View { doc: doc.to_owned(), time, overrides, ..View::default() };
+        self.session.work(&view).ok_or_else(|| Refusal::new(format!("{doc:?} is not open")))
     }
 
     /// Evaluates and renders what is to be shown.
