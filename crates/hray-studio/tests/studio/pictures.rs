@@ -153,3 +153,20 @@ fn time_and_size_are_those_of_the_view() {
     page.ask(json!({ "do": "view", "doc": "a.hry", "time": 2, "width": 8, "height": 4 })).unwrap();
     assert_eq!(page.event(|event| event["event"] == "frame" && event["width"] != 48)["width"], 8);
 }
+
+#[test]
+fn a_pixel_leads_to_the_line_that_made_it() {
+    let studio = Studio::with(&[]);
+    let mut page = studio.page();
+    page.edit("a.hry", 1, BALL).unwrap();
+    let explain = |x: u32, y: u32| json!({ "do": "explain", "doc": "a.hry", "version": 1, "x": x, "y": y, "time": 0 });
+    let found = page.ask(explain(32, 24)).unwrap();
+    let place = &found["object"]["place"];
+    assert_eq!((&found["object"]["kind"], &place["line"]), (&json!("sphere"), &json!(3)), "{found}");
+    let [from, to] = [&place["from"], &place["to"]].map(|at| at.as_u64().unwrap() as usize);
+    assert_eq!(&BALL[from..to], "sphere { center = (0, 1, 0) }");
+    assert!(page.ask(explain(64, 0)).is_err());
+    page.edit("a.hry", 2, "scene = ").unwrap();
+    let refused = page.ask(json!({ "do": "explain", "doc": "a.hry", "version": 2, "x": 1, "y": 1 })).unwrap_err();
+    assert!(refused["message"].as_str().unwrap().contains("has errors"), "{refused}");
+}
