@@ -156,10 +156,8 @@ impl Engine {
             .map_err(|error| (String::new(), Refusal::new(format!("the view cannot be read: {error}"))))?;
         let doc = view.doc.clone();
         let with_doc = |refusal| (doc.clone(), refusal);
-        let work: Work = self
-            .session
-            .work(&view)
-            .ok_or_else(|| with_doc(Refusal::new(format!("{doc:?} is not open"))))?;
+        let work: Work =
+            self.session.work(&view).ok_or_else(|| with_doc(Refusal::new(format!("{doc:?} is not open"))))?;
         // Nobody sets the flag that would stop it.
         let Some(evaluated) = work.evaluate(&Arc::default()) else { return Ok(()) };
         events.extend([evaluated.problems, evaluated.scene]);

@@ -23,7 +23,7 @@ pub enum Outgoing {
 }
 
 /// Where messages to the page go. It may take its time, which holds the renders back; false where the page is gone.
-pub(crate) type Send = Arc<dyn Fn(Outgoing) -> bool + std::marker::Send + Sync>;
+pub(crate) type Sink = Arc<dyn Fn(Outgoing) -> bool + Send + Sync>;
 
 /// A session that answers one page.
 pub struct Studio {
@@ -31,7 +31,7 @@ pub struct Studio {
     view: Option<View>,
     desk: Arc<Desk>,
     threads: Vec<JoinHandle<()>>,
-    send: Send,
+    send: Sink,
 }
 
 impl std::fmt::Debug for Studio {
@@ -46,9 +46,9 @@ impl Studio {
     pub fn new(
         session: Session,
         renderers: usize,
-        send: impl Fn(Outgoing) -> bool + std::marker::Send + Sync + 'static,
+        send: impl Fn(Outgoing) -> bool + Send + Sync + 'static,
     ) -> Self {
-        let (desk, send): (_, Send) = (Arc::new(Desk::default()), Arc::new(send));
+        let (desk, send): (_, Sink) = (Arc::new(Desk::default()), Arc::new(send));
         let renders = (desk.clone(), send.clone());
         let watches = desk.clone();
         let threads = vec![
@@ -62,7 +62,9 @@ impl Studio {
     pub fn message(&mut self, text: &str) -> bool {
         let message = match Message::read(text) {
             Ok(message) => message,
-            Err(refusal) => return self.tell(json!({ "event": "unreadable", "message": refusal.message }).to_string()),
+            Err(refusal) => {
+                return self.tell(json!({ "event": "unreadable", "message": refusal.message }).to_string());
+            }
         };
         let id = message.id;
         let answered = match message.request {

@@ -89,7 +89,8 @@ fn every_pixel_of_the_classic_scenes_is_that_of_a_render() {
 #[test]
 fn passes_go_from_coarse_to_fine() {
     let frame = Frame::new(&scene(GLASS), None, &mut MeshTrees::default()).unwrap();
-    let steps: Vec<[u32; 2]> = frame.passes().iter().map(|pass| [pass.step.get(), pass.samples.get()]).collect();
+    let steps: Vec<[u32; 2]> =
+        frame.passes().iter().map(|pass| [pass.step.get(), pass.samples.get()]).collect();
     assert_eq!(steps, [[16, 1], [4, 1], [1, 1], [1, 3]]);
     let (_, counts) = picture(&frame);
     assert_eq!(counts, [10 * 6, 38 * 21, 150 * 83, 150 * 83]);
@@ -98,7 +99,8 @@ fn passes_go_from_coarse_to_fine() {
     let tiles = frame.tiles(3);
     let holds = |x: u32, y: u32| {
         let region = tiles[0].region;
-        (region.x()..region.x() + region.width()).contains(&x) && (region.y()..region.y() + region.height()).contains(&y)
+        (region.x()..region.x() + region.width()).contains(&x)
+            && (region.y()..region.y() + region.height()).contains(&y)
     };
     assert!(holds(75, 41));
 }
@@ -119,7 +121,8 @@ fn trees_over_meshes_are_kept_as_long_as_the_meshes_are_there() {
 
 #[test]
 fn a_picture_that_no_page_has_memory_for_is_refused() {
-    let refused = Frame::new(&scene("scene = { size = (8193, 8192) }"), None, &mut MeshTrees::default()).unwrap_err();
+    let refused =
+        Frame::new(&scene("scene = { size = (8193, 8192) }"), None, &mut MeshTrees::default()).unwrap_err();
     assert!(refused.message.contains("8193x8192 pixels is too large"), "{}", refused.message);
     assert!(Frame::new(&scene("scene = { size = (8192, 8192) }"), None, &mut MeshTrees::default()).is_ok());
 }

@@ -1,7 +1,7 @@
 //! The threads that evaluate and render.
 
 use super::film::{Film, hash_of};
-use super::{Outgoing, Send};
+use super::{Outgoing, Sink};
 use crate::frame::{Frame, Pixels, Tile};
 use crate::protocol::{Event, Refusal, answer, pixels_message};
 use crate::scene::Work;
@@ -142,7 +142,9 @@ impl Desk {
                 left
             });
             state = match left {
-                Some(left) => self.changed.wait_timeout(state, left).unwrap_or_else(PoisonError::into_inner).0,
+                Some(left) => {
+                    self.changed.wait_timeout(state, left).unwrap_or_else(PoisonError::into_inner).0
+                }
                 None => self.changed.wait(state).unwrap_or_else(PoisonError::into_inner),
             };
         }
@@ -156,7 +158,7 @@ impl State {
 }
 
 /// Evaluates and renders until the desk is closed.
-pub(super) fn work(desk: &Desk, renderers: usize, send: &Send) {
+pub(super) fn work(desk: &Desk, renderers: usize, send: &Sink) {
     let mut meshes = MeshTrees::default();
     let mut number = 0;
     while let Some((job, running)) = desk.take() {
@@ -176,7 +178,7 @@ pub(super) fn work(desk: &Desk, renderers: usize, send: &Send) {
 struct Show<'a> {
     frame: u32,
     renderers: usize,
-    send: &'a Send,
+    send: &'a Sink,
     running: &'a Running,
 }
 
@@ -305,8 +307,8 @@ pub(super) type Made = Result<(Value, Option<Vec<u8>>), Refusal>;
 pub(super) fn aside(
     id: u64,
     desk: Arc<Desk>,
-    send: Send,
-    make: impl FnOnce(&Control) -> Made + std::marker::Send + 'static,
+    send: Sink,
+    make: impl FnOnce(&Control) -> Made + Send + 'static,
 ) -> Result<(), Refusal> {
     if desk.asides.fetch_add(1, Ordering::Relaxed) >= MOST_ASIDES {
         desk.asides.fetch_sub(1, Ordering::Relaxed);
