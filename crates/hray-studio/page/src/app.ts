@@ -242,7 +242,7 @@ export class Studio implements Host {
         if (event.summary) this.showSummary(event.summary);
         this.editorPane.classList.toggle("behind", !event.ok);
         this.pane.scene(event.ok, event.summary, event.animated, event.module ?? null);
-        this.pane.element.dataset["version"] = String(event.version);
+        this.editorPane.dataset["known"] = String(event.version);
         break;
       case "frame":
         if (event.doc !== current.name) return;
@@ -343,6 +343,7 @@ export class Studio implements Host {
     );
     this.fileButton.setAttribute("aria-label", `Open. Now: ${current.name}${dirty ? ", not saved" : ""}`);
     this.saveButton.disabled = !dirty && !current.untitled;
+    this.editorPane.dataset["version"] = String(current.version);
     document.title = `${dirty ? "• " : ""}${current.name.slice(slash)} — hray studio`;
   }
 

@@ -47,7 +47,7 @@ export const icons = {
   picture: "M2.5 3.5h11v9h-11z M2.5 11l3.2-3.4 2.6 2.7 1.9-1.8 3.3 3 M10.2 6.2v.1",
   link: "M6.5 9.5l3-3 M7.5 4.8l1.2-1.2a2.6 2.6 0 013.7 3.7l-1.2 1.2 M8.500 11.200l-1.200 1.200a2.600 2.600 0 01-3.700-3.700l1.200-1.200",
   help: "M6 6.200a2 2 0 113 1.700c-.7.400-1 .800-1 1.600 M8 12v.100",
-  theme: "M8 2.500a5.500 5.500 0 100 11 4.500 4.500 0 010-11z",
+  theme: "M8 2.500a5.500 5.500 0 100 11 5.500 5.500 0 000-11z M8 2.500v11 M8 5.200h3.900 M8 8h5.400 M8 10.800h3.900",
   play: "M5 3.500l7 4.500-7 4.500z",
   pause: "M5.500 3.500v9 M10.500 3.500v9",
   loop: "M3 8a4 4 0 014-4h4 M9.500 2.200L11.500 4 9.500 5.800 M13 8a4 4 0 01-4 4H5 M6.500 13.800L4.500 12l2-1.800",
@@ -91,6 +91,7 @@ export const isMac = /Mac|iPad|iPhone/.test(navigator.platform);
 
 /** How a key is called on this machine: `Mod-s` is Ctrl+S or ⌘S. */
 export function keyName(key: string): string {
+  if (key.length === 1) return key.toUpperCase();
   return key
     .split("-")
     .map((part) => {

@@ -21,6 +21,8 @@ const token = new URLSearchParams(location.search).get("token");
 const engine: Engine = token ? new SocketEngine(token) : new WorkerEngine();
 const studio = new Studio(root, engine);
 engine.on((event) => studio.receive(event));
+// For the suite, which reads from it, and for whoever is curious.
+Object.assign(window, { hray: studio });
 
 async function opened(): Promise<void> {
   try {

@@ -200,6 +200,8 @@ export class PicturePane {
     this.picture.dim(false);
     if (this.notice.dataset["kind"] === "failed") this.setNotice(null);
     this.element.dataset["state"] = "rendering";
+    this.element.dataset["version"] = String(event.version);
+    this.element.dataset["time"] = String(event.time);
     this.progress.style.setProperty("--done", "0");
     this.events.state({ is: "rendering", done: 0, seconds: 0 });
   }
