@@ -495,18 +495,19 @@ export class Studio implements Host {
     if (!name || name === old) return;
     const answer = await this.ask("rename", { at, name });
     if (!answer) return;
-    const here = answer.edits.filter((edit) => !edit.file || edit.file === this.documents.current.name);
-    this.editor.edit(here);
-    if (here.length < answer.edits.length) this.say("Other files use this name as well; it was renamed in this one alone.");
+    const { current } = this.documents;
+    this.editor.edit(answer.files.find((file) => file.doc === current.name)?.edits ?? []);
+    const others = answer.files.map((file) => file.doc).filter((doc) => doc !== current.name);
+    if (others.length > 0) this.say(`Renamed here. ${others.join(", ")} ${others.length > 1 ? "use" : "uses"} the name as well, and is to be changed there.`);
   }
 
   private pictureMenu(button: HTMLElement): void {
-    const formats = this.hello?.formats ?? ["png"];
+    const formats = this.hello?.formats ?? [];
     openMenu(
       button,
       [
         { label: "Copy to the clipboard", run: () => void this.copyPicture() },
-        ...formats.map((format) => ({ label: `Save as ${format.toUpperCase()}`, hint: formatHints[format] ?? "", run: () => void this.savePicture(format) })),
+        ...formats.map((format) => ({ label: `Save as ${format.name}`, hint: `.${format.extension}`, run: () => void this.savePicture(format.name) })),
       ],
       "Save or copy the picture",
     );
@@ -628,15 +629,6 @@ export class Studio implements Host {
     next?.[1]();
   }
 }
-
-const formatHints: Record<string, string> = {
-  png: "for everything",
-  ppm: "the format of 2005",
-  exr: "values beyond 1",
-  jpg: "small",
-  jpeg: "small",
-  webp: "small",
-};
 
 function fact(text: string, title: string): HTMLElement {
   return h("span", { class: "fact", title }, text);

@@ -116,16 +116,16 @@ export class Documents {
     return name;
   }
 
-  private leave(): void {
+  private leave(next: string): void {
     this.keep();
     const { name } = this.current;
     if (!name) return;
     this.left.set(name, this.studio.editor.state);
-    this.studio.send("close", { doc: name });
+    if (name !== next) this.studio.send("close", { doc: name });
   }
 
   private show(document: Omit<Document, "version">, text: string): void {
-    this.leave();
+    this.leave(document.name);
     this.current = { ...document, version: ++this.versions };
     sessionStorage.setItem("hray:doc", document.name);
     const left = this.left.get(document.name);
@@ -384,6 +384,8 @@ export class Documents {
       this.current = { name: path, untitled: false, disk, saved: text, version: ++this.versions, conflict: null };
       sessionStorage.setItem("hray:doc", path);
       studio.sendAll();
+      // From now on the engine tells when the file changes.
+      void studio.engine.request("open", { path }).then((file) => this.onDisk(file.path, file.disk, file.text), () => undefined);
     }
     this.current.untitled = false;
     this.saved(text, disk);

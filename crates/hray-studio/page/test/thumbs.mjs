@@ -16,8 +16,8 @@ for (const file of readdirSync(examples).filter((name) => name.endsWith(".png"))
     const image = new Image();
     image.src = source;
     await image.decode();
-    const width = 384;
-    const height = 240;
+    const width = 320;
+    const height = 200;
     const canvas = document.createElement("canvas");
     canvas.width = width;
     canvas.height = height;
@@ -25,8 +25,8 @@ for (const file of readdirSync(examples).filter((name) => name.endsWith(".png"))
     context.imageSmoothingQuality = "high";
     const scale = Math.max(width / image.width, height / image.height);
     context.drawImage(image, (width - image.width * scale) / 2, (height - image.height * scale) / 2, image.width * scale, image.height * scale);
-    return canvas.toDataURL("image/webp", 0.72).split(",")[1];
+    return canvas.toDataURL("image/jpeg", 0.78).split(",")[1];
   }, picture);
-  writeFileSync(out + file.replace(/\.png$/, ".webp"), Buffer.from(small, "base64"));
+  writeFileSync(out + file.replace(/\.png$/, ".jpg"), Buffer.from(small, "base64"));
 }
 await browser.close();

@@ -16,6 +16,12 @@ export interface FileEntry {
   kind: "scene" | "classic" | "other";
 }
 
+export interface FormatEntry {
+  name: string;
+  about: string;
+  extension: string;
+}
+
 export interface Hello {
   version: string;
   root: string;
@@ -23,7 +29,7 @@ export interface Hello {
   start: string | null;
   canSave: boolean;
   examples: ExampleEntry[];
-  formats: string[];
+  formats: FormatEntry[];
   cores: number;
 }
 
@@ -191,7 +197,7 @@ export interface Requests {
   complete: [At, { from: number; to: number; items: CompletionItem[] }];
   hover: [At, null | { from: number; to: number; code: string | null; text: string | null; color: Colour | null }];
   definition: [At, null | Definition];
-  rename: [At & { name: string }, { edits: TextEdit[] }];
+  rename: [At & { name: string }, { files: { doc: string; edits: TextEdit[] }[] }];
   format: [Version, { text: string }];
   colors: [Version, ColourSpot[]];
   present: [Version & { from: number; to: number; color: Colour }, string[]];
