@@ -60,6 +60,11 @@ pub(crate) enum Command {
         #[arg(long, hide = true)]
         stdio: bool,
     },
+    /// Write scenes in the browser and watch them appear
+    #[command(
+        after_help = "The page is served to this machine alone, and can be reached only by the address that is printed.\nIt reads files in the folder of the scene, and writes nothing but scenes that are saved."
+    )]
+    Studio(StudioArgs),
     /// Print a script that lets a shell complete the commands and options
     #[command(
         after_help = "For example, for bash:\n  hray completions bash > ~/.local/share/bash-completion/completions/hray"
@@ -74,6 +79,20 @@ pub(crate) enum Command {
         /// The command it is about [default: all of hray]
         command: Option<String>,
     },
+}
+
+/// `hray studio`.
+#[derive(Args, Debug)]
+pub(crate) struct StudioArgs {
+    /// A scene, or a folder of scenes [default: the current folder]
+    #[arg(value_name = "FILE or FOLDER")]
+    pub target: Option<PathBuf>,
+    /// Only print the address
+    #[arg(long)]
+    pub no_open: bool,
+    /// The port, which must be free [default: the first free one from 4005 on]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    pub port: Option<u16>,
 }
 
 /// `hray INPUT.hry OUTPUT.ppm`.

@@ -25,6 +25,7 @@ mod pattern;
 mod progress;
 mod render;
 mod scene_args;
+mod studio;
 mod summary;
 mod values;
 
@@ -52,6 +53,7 @@ fn run(console: &Console) -> Result<(), Failure> {
         Some(Command::Fmt(arguments)) => fmt::run(arguments, console),
         Some(Command::Convert(arguments)) => convert::run(arguments, console),
         Some(Command::Lsp { .. }) => lsp::run(),
+        Some(Command::Studio(arguments)) => studio::run(arguments, console),
         Some(Command::Completions { shell }) => generate::completions(*shell, console),
         Some(Command::Man { command }) => generate::man(command.as_deref(), console),
     }

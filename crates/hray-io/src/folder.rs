@@ -29,6 +29,17 @@ pub enum FolderError {
     Outside,
     /// It cannot be read.
     Input(InputError),
+    /// It cannot be written.
+    Output(crate::OutputError),
+}
+
+/// What changes when a file is written; see [`Folder::stamp`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct FileStamp {
+    /// When it was last written, where the system says.
+    pub written: Option<std::time::SystemTime>,
+    /// Its length in bytes.
+    pub length: u64,
 }
 
 impl Folder {
@@ -91,6 +102,7 @@ impl Folder {
                 FolderError::Missing => "there is no such file".to_owned(),
                 FolderError::Outside => OUTSIDE.to_owned(),
                 FolderError::Input(error) => error.reason(),
+                FolderError::Output(error) => error.to_string(),
             })
         };
         let bytes = self.bytes(path, MAX_MODEL_BYTES)?;
@@ -140,6 +152,38 @@ impl Folder {
         found.sort_by(|a, b| (a.matches('/').count(), a).cmp(&(b.matches('/').count(), b)));
         found.truncate(most);
         found
+    }
+
+    /// What changes when a file is written: when that was last done, and how long it is. None where there is no such file.
+    #[must_use]
+    pub fn stamp(&self, path: &str) -> Option<FileStamp> {
+        let metadata = fs::metadata(self.find(path).ok()?).ok()?;
+        metadata.is_file().then(|| FileStamp { written: metadata.modified().ok(), length: metadata.len() })
+    }
+
+    /// Writes a text to a file, whole or not at all. Its folder has to be there.
+    ///
+    /// # Errors
+    /// [`FolderError::Outside`] where the place is not in this folder, links followed; [`FolderError::Output`] where the
+    /// system refuses.
+    pub fn write(&self, path: &str, text: &str) -> Result<(), FolderError> {
+        let relative = Path::new(path);
+        let is_plain = relative.components().all(|part| matches!(part, Component::Normal(_)));
+        let (true, Some(name)) = (is_plain, relative.file_name()) else { return Err(FolderError::Outside) };
+        let parent = self.find(&relative.parent().unwrap_or(Path::new("")).to_string_lossy())?;
+        let mut target = parent.join(name);
+        // What is a link already is followed, as long as it leads to a place in the folder.
+        match self.find(path) {
+            Ok(found) => target = found,
+            Err(FolderError::Missing) if fs::symlink_metadata(&target).is_err() => {}
+            Err(FolderError::Missing) => return Err(FolderError::Outside),
+            Err(error) => return Err(error),
+        }
+        let destination = crate::Destination::file(&target).map_err(FolderError::Output)?;
+        if destination.is_direct() {
+            return Err(FolderError::Outside);
+        }
+        crate::write_text(&destination, text).map_err(FolderError::Output)
     }
 
     /// The true path of what `path` leads to, which lies in the folder.

@@ -49,7 +49,7 @@ mod text;
 pub use animation::{AnimationFormat, AnimationWriter, MAX_FPS, MIN_FPS};
 pub use destination::{Destination, create_folder};
 pub use error::{InputError, OutputError};
-pub use folder::{Folder, FolderError};
+pub use folder::{FileStamp, Folder, FolderError};
 pub use format::{PictureFormat, UnknownFormat};
 pub use meshes::{Companions, MAX_MODEL_BYTES, decode_model, model_format, read_model};
 pub use noise_tables::{MAX_NOISE_TABLES_BYTES, TablesError, parse_noise_tables, read_noise_tables};

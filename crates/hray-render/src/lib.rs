@@ -1,7 +1,8 @@
 //! From a scene to the colours of its pixels.
 //!
-//! [`render`] is the one entry: a scene, noise tables and [`Settings`] in; runs of pixels out, in order, each
-//! encoded by the caller on the thread that rendered it. Nothing here touches a file. The value of a pixel
+//! [`render`] is the one entry to whole pictures: a scene, noise tables and [`Settings`] in; runs of pixels out, in order,
+//! each encoded by the caller on the thread that rendered it. [`Prepared`] is for who shows a picture while it comes into
+//! being: parts of it in any order, coarse or fine. Nothing here touches a file. The value of a pixel
 //! depends on the scene, the settings and the pixel's own coordinates; the number of threads, the order in
 //! which runs are finished and the width of the machine's vectors change no bit of it.
 //!
@@ -12,13 +13,15 @@
 
 mod classic;
 mod control;
+mod prepared;
 mod render;
 mod sampler;
 mod settings;
 mod statistics;
 
-pub use classic::MAX_SOLID_PARTS;
+pub use classic::{MAX_SOLID_PARTS, MeshTrees};
 pub use control::Control;
+pub use prepared::{Prepared, Tracer};
 pub use render::{RenderError, render};
 pub use settings::{MAX_SAMPLES, Region, RegionError, Settings};
 pub use statistics::{RayCounts, Statistics};

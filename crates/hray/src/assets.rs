@@ -70,6 +70,41 @@ impl FolderAssets {
     }
 }
 
+/// What a scene reads from.
+#[derive(Debug)]
+pub(crate) enum SceneAssets {
+    /// A folder.
+    Folder(FolderAssets),
+    /// Whatever the caller has.
+    Given(Given),
+}
+
+/// Assets of the caller's.
+pub(crate) struct Given(pub(crate) Arc<dyn Assets + Send + Sync>);
+
+impl std::fmt::Debug for Given {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Given").finish_non_exhaustive()
+    }
+}
+
+impl SceneAssets {
+    pub(crate) fn get(&self) -> &dyn Assets {
+        match self {
+            Self::Folder(folder) => folder,
+            Self::Given(Given(given)) => &**given,
+        }
+    }
+
+    /// The images and meshes that were read so far, where these lie in a folder.
+    pub(crate) fn assets_read(&self) -> Vec<PathBuf> {
+        match self {
+            Self::Folder(folder) => folder.assets_read(),
+            Self::Given(_) => Vec::new(),
+        }
+    }
+}
+
 impl Assets for FolderAssets {
     fn text(&self, path: &str) -> Result<String, AssetError> {
         let bytes = self.folder()?.read(path).map_err(unavailable)?;

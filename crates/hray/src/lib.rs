@@ -75,18 +75,18 @@ pub use hray_core::{
     WindowCamera,
 };
 pub use hray_io::{
-    AnimationFormat, AnimationWriter, Destination, Input, InputError, MAX_FPS, MAX_MODEL_BYTES,
-    MAX_SOURCE_BYTES, MIN_FPS, OutputError, PictureFormat, Quoted, TablesError, UnknownFormat, create_folder,
+    AnimationFormat, AnimationWriter, Destination, FileStamp, Folder, FolderError, Input, InputError, MAX_FPS, MAX_MODEL_BYTES,
+    MAX_SOURCE_BYTES, MIN_FPS, OutputError, PictureFormat, Quoted, TablesError, UnknownFormat, create_folder, decode_image, decode_model,
     model_format, parse_noise_tables, read_model, read_noise_tables, read_source, same_file, write_text,
 };
 pub use hray_lang::Language;
 pub use hray_lang::classic::write as write_classic;
 pub use hray_lang::diagnostic::{Diagnostic, Severity, Span};
-pub use hray_lang::hry::assets::Assets;
+pub use hray_lang::hry::assets::{AssetError, Assets, resolve as resolve_path};
 pub use hray_lang::hry::eval::Limits;
 pub use hray_lang::hry::ide;
 pub use hray_lang::hry::{Sources, convert};
 pub use hray_lang::lint::{ALL_LINTS, CLASSIC_LINTS, LINTS, Level, Lint, LintLevels, UnknownLint, hry_lints};
 pub use hray_render::{
-    Control, MAX_SAMPLES, MAX_SOLID_PARTS, RayCounts, Region, RegionError, Settings, Statistics,
+    Control, MAX_SAMPLES, MAX_SOLID_PARTS, MeshTrees, Prepared, RayCounts, Region, RegionError, RenderError, Settings, Statistics, Tracer,
 };

@@ -1,15 +1,16 @@
 //! A scene file: its text, what it describes, and what there is to say about it.
 
-use crate::assets::FolderAssets;
+use crate::assets::{FolderAssets, Given, SceneAssets};
 use crate::scene_of_model;
 use crate::{Description, Diagnostic, Error, Findings, Input, InputError, Limits, LintLevels, LoadError};
-use hray_lang::hry::assets::{AssetError, Assets as _};
+use hray_lang::hry::assets::{AssetError, Assets};
 use hray_lang::hry::eval::Evaluator;
 use hray_lang::hry::{Program, Sources, types};
 use hray_lang::{Language, classic, decode, diagnostic, lint};
 use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
 
 /// How to load a scene.
 #[derive(Clone, Debug, Default)]
@@ -25,6 +26,8 @@ pub struct LoadOptions {
     pub time: f64,
     /// How much the evaluation of an hry scene may take.
     pub limits: Limits,
+    /// Ends the evaluation of an hry scene, with an error, soon after it is set.
+    pub stop: Option<Arc<AtomicBool>>,
     /// Whether a file in hry may do without a scene, as one does that is there to be imported. Otherwise that is an error.
     pub modules: bool,
 }
@@ -47,7 +50,7 @@ pub struct SceneFile {
 #[derive(Debug)]
 struct CheckedScene {
     program: Program,
-    assets: FolderAssets,
+    assets: SceneAssets,
     options: LoadOptions,
     /// What the checker warned of.
     warnings: Vec<Diagnostic>,
@@ -64,18 +67,32 @@ impl SceneFile {
     pub fn read(input: &Input, options: &LoadOptions) -> Result<Self, InputError> {
         if let Some(scene) = ModelScene::read(input, options)? {
             let ModelScene { assets, path, text } = scene;
+            let assets = SceneAssets::Folder(assets);
             return Ok(Self::hry(&input.name(), &path, text.into(), assets, options));
         }
         let bytes = hray_io::read_source(input)?;
         let (assets, path) = FolderAssets::of(input, options.root.as_deref())?;
-        Ok(Self::understand(&input.name(), &path, bytes, assets, options))
+        Ok(Self::understand(&input.name(), &path, bytes, SceneAssets::Folder(assets), options))
     }
 
     /// Makes a scene of bytes, which are called `name` in diagnostics.
     #[must_use]
     pub fn parse(name: &str, bytes: Vec<u8>, levels: &LintLevels) -> Self {
         let options = LoadOptions { levels: levels.clone(), ..LoadOptions::default() };
-        Self::understand(name, name, bytes, FolderAssets::nothing(), &options)
+        Self::understand(name, name, bytes, SceneAssets::Folder(FolderAssets::nothing()), &options)
+    }
+
+    /// Makes a scene of bytes, which are called `name` in diagnostics, lie at `path` in the root folder, and take what they
+    /// import from `assets`. The root folder of the options means nothing here.
+    #[must_use]
+    pub fn parse_among(
+        name: &str,
+        path: &str,
+        bytes: Vec<u8>,
+        assets: Arc<dyn Assets + Send + Sync>,
+        options: &LoadOptions,
+    ) -> Self {
+        Self::understand(name, path, bytes, SceneAssets::Given(Given(assets)), options)
     }
 
     /// Makes a scene of bytes, which are called `name` in diagnostics, and reads what they import from the root folder
@@ -85,14 +102,14 @@ impl SceneFile {
     /// [`InputError`] where there is no such folder.
     pub fn parse_with(name: &str, bytes: Vec<u8>, options: &LoadOptions) -> Result<Self, InputError> {
         let (assets, path) = FolderAssets::without_file(options.root.as_deref())?;
-        Ok(Self::understand(name, &path, bytes, assets, options))
+        Ok(Self::understand(name, &path, bytes, SceneAssets::Folder(assets), options))
     }
 
     fn understand(
         name: &str,
         path: &str,
         bytes: Vec<u8>,
-        assets: FolderAssets,
+        assets: SceneAssets,
         options: &LoadOptions,
     ) -> Self {
         let (text, unreadable) = match decode::decode(&bytes) {
@@ -133,9 +150,9 @@ impl SceneFile {
         Self::of_one_text(Language::Classic, name, text, description, diagnostics)
     }
 
-    fn hry(name: &str, path: &str, text: Arc<str>, assets: FolderAssets, options: &LoadOptions) -> Self {
+    fn hry(name: &str, path: &str, text: Arc<str>, assets: SceneAssets, options: &LoadOptions) -> Self {
         let mut diagnostics = Vec::new();
-        let mut program = Program::load(name, path, text, &options.set, &assets, &mut diagnostics);
+        let mut program = Program::load(name, path, text, &options.set, assets.get(), &mut diagnostics);
         let read = diagnostics.clone();
         types::check(&program, &mut diagnostics);
         // A value that is set may be of another type than the one it replaces, as long as that fits everywhere.
@@ -183,7 +200,11 @@ impl SceneFile {
         let evaluator = self
             .checked
             .as_deref()
-            .map(|checked| Evaluator::new(&checked.program, &checked.assets, &checked.options.limits));
+            .map(|checked| {
+                let CheckedScene { program, assets, options, .. } = checked;
+                let evaluator = Evaluator::new(program, assets.get(), &options.limits);
+                options.stop.iter().fold(evaluator, |evaluator, stop| evaluator.stopped_by(stop))
+            });
         Moments { file: self, evaluator }
     }
 
@@ -247,6 +268,12 @@ impl SceneFile {
     #[must_use]
     pub fn report(&self, color: bool) -> String {
         diagnostic::render_sources(&self.diagnostics, &self.sources, color)
+    }
+
+    /// One of the diagnostics as text, without colours.
+    #[must_use]
+    pub fn rendered(&self, diagnostic: &Diagnostic) -> String {
+        diagnostic::render_sources(std::slice::from_ref(diagnostic), &self.sources, false)
     }
 
     /// The diagnostics for programs, with lines and columns.

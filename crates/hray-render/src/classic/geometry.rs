@@ -2,13 +2,12 @@
 
 use super::accelerate::{Accelerated, accelerate};
 use super::material::Materials;
-use super::mesh::PreparedMesh;
+use super::mesh_trees::MeshTrees;
 use super::placement::Placement;
 use super::shapes::Prepared;
 use super::solid::{Node, Ray, Solid, interval};
 use hray_core::{Csg, CsgOperation, DAffine3, Integrator, Primitive, Shape};
 use std::collections::HashMap;
-use std::collections::hash_map::Entry;
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -58,6 +57,7 @@ impl Geometry {
         primitives: &[Primitive],
         integrator: Integrator,
         materials: &mut Materials,
+        meshes: &mut MeshTrees,
     ) -> Result<Self, TooManyParts> {
         let thesis = integrator == Integrator::Classic2005;
         let mut geometry = Self {
@@ -71,22 +71,14 @@ impl Geometry {
         };
         let mut places = Places::default();
         let mut parts = 0;
-        let mut meshes = HashMap::new();
         for primitive in primitives.iter().rev() {
             let first = geometry.shapes.len() as u32;
             if let Shape::Mesh(mesh) = &primitive.shape {
-                // The scene keeps its meshes, so the address stays this one's.
-                let prepared: &mut Arc<PreparedMesh> = match meshes.entry(Arc::as_ptr(mesh).addr()) {
-                    Entry::Occupied(known) => known.into_mut(),
-                    Entry::Vacant(new) => {
-                        let prepared = PreparedMesh::new(mesh.clone()).map_err(|_| TooManyParts)?;
-                        new.insert(Arc::new(prepared))
-                    }
-                };
+                let prepared = meshes.of(mesh).map_err(|_| TooManyParts)?;
                 let place = places.of(primitive.transform.as_ref(), &mut geometry.placements);
                 let leaf = Leaf { material: materials.of(&primitive.material), place: place << 1 };
                 geometry.roots.push(Root::Mesh(first));
-                geometry.add_leaf(Prepared::Mesh(prepared.clone()), leaf);
+                geometry.add_leaf(Prepared::Mesh(prepared), leaf);
             } else if let Some(shape) = Prepared::new(&primitive.shape, integrator) {
                 let place = places.of(primitive.transform.as_ref(), &mut geometry.placements);
                 let leaf = Leaf { material: materials.of(&primitive.material), place: place << 1 };

@@ -40,6 +40,11 @@ impl PreparedMesh {
         Ok(Self { mesh, tree })
     }
 
+    /// The mesh that it was made of.
+    pub(super) const fn mesh(&self) -> &Arc<Mesh> {
+        &self.mesh
+    }
+
     /// The corners of the box around it, if there is anything.
     pub(super) fn bounds(&self) -> Option<[DVec3; 2]> {
         let bounds = self.tree.bounds();

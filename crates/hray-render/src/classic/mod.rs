@@ -18,6 +18,7 @@ mod geometry;
 mod light;
 mod material;
 mod mesh;
+mod mesh_trees;
 mod placement;
 mod plans;
 mod shapes;
@@ -40,6 +41,7 @@ use plans::Plans;
 use solid::Walk;
 
 pub use geometry::MAX_SOLID_PARTS;
+pub use mesh_trees::MeshTrees;
 pub(crate) use geometry::TooManyParts;
 
 /// The most rays a batch is made of: enough to fill vectors after grouping, few enough to stay in cache.
@@ -109,10 +111,19 @@ pub(crate) struct Stopped;
 
 impl Integrator {
     pub(crate) fn new(description: &Description, tables: &NoiseTables) -> Result<Self, TooManyParts> {
+        Self::with_meshes(description, tables, &mut MeshTrees::default())
+    }
+
+    /// The same with the trees of meshes that are known from before.
+    pub(crate) fn with_meshes(
+        description: &Description,
+        tables: &NoiseTables,
+        meshes: &mut MeshTrees,
+    ) -> Result<Self, TooManyParts> {
         let scene = &description.scene;
         let exact = description.integrator == hray_core::Integrator::Classic;
         let mut materials = Materials::new(Plans::new(tables));
-        let geometry = Geometry::new(&scene.primitives, description.integrator, &mut materials)?;
+        let geometry = Geometry::new(&scene.primitives, description.integrator, &mut materials, meshes)?;
         let uv = materials.plans.use_uv;
         let fields = !materials.plans.is_empty();
         let meshes = geometry.has_meshes();

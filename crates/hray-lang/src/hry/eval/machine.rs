@@ -17,12 +17,16 @@ use hray_core::Image;
 use hray_expr::{Builder, Unary};
 use std::collections::BTreeMap;
 use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 /// How deep conditions that depend on the hit may nest.
 const MOST_BRANCHES: u32 = 600;
 /// Stack that must be left for the next call, and what is added where it is not.
 const RED_ZONE: usize = 1 << 20;
 const MORE_STACK: usize = 16 << 20;
+
+/// Steps after which it is asked anew whether the evaluation is to stop: some microseconds.
+const STEPS_BETWEEN_LOOKS: u64 = 1 << 10;
 
 /// What is known of a definition.
 enum GlobalState {
@@ -36,6 +40,8 @@ pub(super) struct Machine<'a> {
     pub(super) program: &'a Program,
     pub(super) assets: &'a dyn Assets,
     pub(super) limits: Limits,
+    /// Set from outside when nobody waits for the result any more.
+    pub(super) stop: Option<&'a AtomicBool>,
     pub(super) meter: Meter,
     pub(super) symbols: Symbols,
     globals: Vec<Vec<GlobalState>>,
@@ -77,6 +83,7 @@ impl<'a> Machine<'a> {
             program,
             assets,
             limits,
+            stop: None,
             meter: Meter::default(),
             symbols: Symbols::default(),
             globals: program.modules.iter().map(|module| count(module.syntax.definitions.len())).collect(),
@@ -105,7 +112,18 @@ impl<'a> Machine<'a> {
     #[inline]
     pub(super) fn step(&mut self, span: Span) -> Outcome<()> {
         self.steps += 1;
-        if self.steps > self.limits.steps { Err(self.out_of_steps(span)) } else { Ok(()) }
+        if self.steps > self.limits.steps {
+            return Err(self.out_of_steps(span));
+        }
+        if self.steps.is_multiple_of(STEPS_BETWEEN_LOOKS) { self.look_for_a_stop(span) } else { Ok(()) }
+    }
+
+    #[cold]
+    fn look_for_a_stop(&self, span: Span) -> Outcome<()> {
+        if self.stop.is_none_or(|stop| !stop.load(Ordering::Relaxed)) {
+            return Ok(());
+        }
+        Err(Failure::new(Diagnostic::error("stopped", "the evaluation was stopped", span, "it was here")))
     }
 
     #[cold]

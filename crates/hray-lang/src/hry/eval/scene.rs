@@ -19,6 +19,7 @@ use hray_core::{
 use std::collections::HashMap;
 use std::num::NonZeroU32;
 use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
 
 /// The most primitives of a scene.
 const MOST_PRIMITIVES: usize = 100_000_000;
@@ -57,6 +58,13 @@ impl<'a> Evaluator<'a> {
     #[must_use]
     pub fn new(program: &'a Program, assets: &'a dyn Assets, limits: &Limits) -> Self {
         Self { machine: Machine::new(program, assets, *limits) }
+    }
+
+    /// The same, ended with an error soon after `stop` is set, which another thread may do.
+    #[must_use]
+    pub fn stopped_by(mut self, stop: &'a AtomicBool) -> Self {
+        self.machine.stop = Some(stop);
+        self
     }
 
     /// The scene at a time in seconds.
