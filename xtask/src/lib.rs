@@ -1,11 +1,13 @@
 //! Project chores, run as `cargo xtask NAME`.
 //!
-//! [`tidy`] keeps the documents true, [`bless`] renders the examples anew, [`mod@bench`] times the program.
+//! [`tidy`] keeps the documents true, [`bless`] renders the examples anew, [`mod@bench`] times the program,
+//! [`playground`] builds the studio for the web.
 
 #![allow(clippy::print_stdout, reason = "chores talk to the person who runs them")]
 
 pub mod bench;
 pub mod bless;
+pub mod playground;
 pub mod tidy;
 
 use std::path::{Path, PathBuf};

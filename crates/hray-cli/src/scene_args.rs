@@ -59,6 +59,7 @@ impl SceneArgs {
             root: self.root.clone(),
             set: self.set.clone(),
             time,
+            stop: None,
             limits: self.limits.limits(),
             modules: false,
         }

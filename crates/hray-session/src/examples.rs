@@ -3,9 +3,27 @@
 use crate::protocol::Example;
 use hray::Language;
 
+include!(concat!(env!("OUT_DIR"), "/examples.rs"));
+
+/// The examples that come with hray. `has_picture` tells whether there is a picture at an address.
+#[must_use]
+pub fn examples(has_picture: impl Fn(&str) -> bool) -> Vec<Example> {
+    let scenes = EXAMPLES.iter().filter(|(_, text)| text.starts_with("renderDescr") || text.contains("\nscene"));
+    let example = |(name, text): &(&str, &str)| {
+        let picture = Some(format!("examples/{name}.jpg")).filter(|picture| has_picture(picture));
+        example_of(name, text, picture)
+    };
+    scenes.map(example).collect()
+}
+
+/// The files that examples import, by their paths.
+pub fn companions() -> impl Iterator<Item = (String, &'static str)> {
+    EXAMPLES.iter().map(|(name, text)| (format!("{name}.hry"), *text))
+}
+
 /// The example in a file `NAME.hry`: what it is about stands in the comment that it begins with.
 #[must_use]
-pub fn example_of(name: &str, text: &str, picture: Option<String>) -> Example {
+fn example_of(name: &str, text: &str, picture: Option<String>) -> Example {
     let comment = text.lines().take_while(|line| line.starts_with("--"));
     let comment: Vec<&str> = comment.map(|line| line.trim_start_matches('-').trim()).collect();
     let classic = Language::of(text) == Language::Classic;

@@ -1,7 +1,8 @@
 //! A picture while it comes into being: gone over a few times, finer each time, in tiles that can be rendered in any order, on
 //! any thread, or in any worker of a page.
 
-use crate::protocol::Refusal;
+use crate::protocol::{Event, Refusal, View};
+use crate::scene::Work;
 use hray::{
     Control, Description, Encoding, MeshTrees, NoiseTables, Options, PictureFormat, Prepared, Region,
     RenderError, Resolution, Rgb, Settings, Tracer,
@@ -64,6 +65,18 @@ pub(crate) fn check_size(size: Resolution) -> Result<(), Refusal> {
     Err(Refusal::new(message).with_help(help))
 }
 
+impl View {
+    /// The size that is asked for, where it is not the scene's.
+    ///
+    /// # Errors
+    /// Where there are no pictures of that size.
+    pub fn size(&self) -> Result<Option<Resolution>, Refusal> {
+        let (Some(width), Some(height)) = (self.width, self.height) else { return Ok(None) };
+        let size = Resolution::new(width.into(), height.into());
+        size.map(Some).map_err(|error| Refusal::new(error.to_string()))
+    }
+}
+
 impl Frame {
     /// Prepares the picture of a scene, in the scene's own size where none is given. The trees over meshes are taken from
     /// `meshes` where they are there, and left there.
@@ -106,6 +119,20 @@ impl Frame {
     #[must_use]
     pub fn passes(&self) -> &[Pass] {
         &self.passes
+    }
+
+    /// That it begins, under a number.
+    #[must_use]
+    pub fn event(&self, number: u32, work: &Work) -> Event {
+        Event::Frame {
+            frame: number,
+            doc: work.doc.clone(),
+            version: work.version,
+            time: work.time,
+            width: self.settings.resolution.width(),
+            height: self.settings.resolution.height(),
+            passes: self.passes.len(),
+        }
     }
 
     /// How many threads may render at once.

@@ -11,20 +11,24 @@ mod examples;
 mod files;
 mod folder;
 mod frame;
+mod picture;
 pub mod protocol;
 mod scene;
 mod session;
 #[cfg(not(target_family = "wasm"))]
 mod studio;
 mod units;
+mod uses;
 
-pub use examples::example_of;
-pub use hray::Limits;
+pub use examples::{companions, examples};
+pub use hray::{Control, Description, Limits, MeshTrees, Tracer};
 pub use files::{Files, MOST_FILES, MOST_TEXT, MemoryFiles, hash, is_inside};
 pub use folder::FolderFiles;
 pub use frame::{Frame, MOST_PIXELS, Pass, Pixels, Tile};
+pub use picture::PictureFile;
 pub use scene::{Evaluated, Work};
 pub use session::{About, MOST_DOCUMENTS, Session};
 #[cfg(not(target_family = "wasm"))]
 pub use studio::{Outgoing, Studio};
 pub use units::Units;
+pub use uses::{MOST_NEIGHBOURS, difference, users};

@@ -4,6 +4,7 @@ use crate::files::{Files, MOST_TEXT, Overlay, inside, on_disk};
 use crate::protocol::{At, Example, Of, OnDisk, Refusal, Request, TextEdit, View};
 use crate::scene::Work;
 use crate::units::Units;
+use crate::uses::users;
 use hray::ide::{Analysis, FileId, Place, SuggestionKind, Symbol, SymbolKind};
 use hray::{Assets, Limits, PictureFormat, Span};
 use serde_json::{Value, json};
@@ -12,8 +13,6 @@ use std::sync::Arc;
 
 /// The most documents that are open at a time.
 pub const MOST_DOCUMENTS: usize = 100;
-/// The most files of the folder that are searched for uses of a name.
-const MOST_NEIGHBOURS: usize = 200;
 
 /// What a session tells of itself.
 #[derive(Clone, Debug, Default)]
@@ -308,9 +307,7 @@ impl Session {
         let offset = document.units.to_byte(&document.text, at.at);
         let mut places = analysis.references(offset, true);
         if let Some(defined) = analysis.definition(offset).filter(|place| matches!(place.file, FileId::Own(_))) {
-            for other in self.neighbours(&analysis) {
-                places.extend(other.uses_of(&defined));
-            }
+            places.extend(self.users(&analysis, &defined).iter().flat_map(|other| other.uses_of(&defined)));
         }
         places.sort();
         places.dedup();
@@ -330,27 +327,22 @@ impl Session {
         }
     }
 
-    /// The other scenes of the folder that import something.
-    fn neighbours(&self, analysis: &Analysis) -> Vec<Arc<Analysis>> {
-        let overlay = self.overlay();
+    /// The other documents and scenes of the folder that may use what is defined at a place.
+    fn users(&self, analysis: &Analysis, defined: &Place) -> Vec<Arc<Analysis>> {
         let listed = self.files.list().into_iter().map(|entry| entry.path).filter(|path| path.ends_with(".hry"));
-        let paths = self.documents.keys().cloned().chain(listed.take(MOST_NEIGHBOURS));
-        let mut paths: Vec<String> = paths.filter(|path| path != analysis.path()).collect();
+        let mut paths: Vec<String> = self.documents.keys().cloned().chain(listed).collect();
+        paths.retain(|path| path != analysis.path());
         paths.sort();
         paths.dedup();
-        let read = |path: String| {
-            let text = overlay.text(&path).ok().filter(|text| text.contains("import"))?;
-            Some(Arc::new(Analysis::new(&path, text.into(), &overlay)))
-        };
-        paths.into_iter().filter_map(read).collect()
+        users(paths, defined, &self.overlay())
     }
 
     fn rename(&mut self, at: &At, name: &str) -> Result<Value, Refusal> {
         let (analysis, document) = self.analysis(&at.of)?;
         let offset = document.units.to_byte(&document.text, at.at);
         let renaming = analysis.renaming(offset).map_err(Refusal::new)?;
-        let mut all = vec![analysis];
-        all.extend(self.neighbours(&all[0]).into_iter().filter(|other| !other.uses_of(&renaming.defined).is_empty()));
+        let mut all = self.users(&analysis, &renaming.defined);
+        all.insert(0, analysis);
         let roots: Vec<&Analysis> = all.iter().map(Arc::as_ref).collect();
         let overlay = self.overlay();
         let reread = |path: &str, changed: &BTreeMap<String, String>| {

@@ -141,7 +141,7 @@ impl Studio {
     fn show(&self) {
         let Some(view) = &self.view else { return };
         if let Some(work) = self.session.work(view) {
-            self.desk.post(Job { work, size: [view.width, view.height], render: true });
+            self.desk.post(Job { work, size: view.size(), render: true });
         }
     }
 
@@ -150,7 +150,7 @@ impl Studio {
     fn check(&self, doc: &str) {
         let view = View { doc: doc.to_owned(), ..View::default() };
         if let Some(work) = self.session.work(&view) {
-            self.desk.post_check(Job { work, size: [None, None], render: false });
+            self.desk.post_check(Job { work, size: Ok(None), render: false });
         }
         self.show();
     }

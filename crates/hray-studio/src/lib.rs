@@ -14,5 +14,4 @@ mod server;
 mod watch;
 
 pub use browser::open_in_browser;
-pub use embedded::examples;
 pub use server::{FIRST_PORT, Options, Server, StartError};

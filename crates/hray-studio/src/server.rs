@@ -104,7 +104,7 @@ impl Server {
         let (listener, port) = runtime.block_on(listen(options.port))?;
         let guard = Arc::new(Guard::new(port).map_err(|error| system(&error))?);
         let cores = std::thread::available_parallelism().map_or(1, usize::from);
-        let about = Arc::new(About { start, examples: embedded::examples(), cores });
+        let about = Arc::new(About { start, examples: hray_session::examples(|picture| embedded::page(picture).is_some()), cores });
         let (touched, _) = broadcast::channel(16);
         let tell = touched.clone();
         // Without a page there is nobody to be told.

@@ -5,7 +5,7 @@ use super::{Outgoing, Send};
 use crate::frame::{Frame, Pixels, Tile};
 use crate::protocol::{Event, Refusal, answer, file_message, pixels_message};
 use crate::scene::Work;
-use hray::{Control, MeshTrees, Options, Picture, PictureFormat, Resolution, Tracer};
+use hray::{Control, MeshTrees, Picture, Resolution, Tracer};
 use serde_json::json;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
@@ -24,7 +24,7 @@ const MOST_FILES_AT_ONCE: usize = 2;
 pub(super) struct Job {
     pub(super) work: Work,
     /// Instead of the scene's.
-    pub(super) size: [Option<u32>; 2],
+    pub(super) size: Result<Option<Resolution>, Refusal>,
     pub(super) render: bool,
 }
 
@@ -202,7 +202,7 @@ impl Show<'_> {
         self.tell(&evaluated.problems);
         self.tell(&evaluated.scene);
         let (Some(description), true) = (&evaluated.description, job.render) else { return };
-        let made = size(job.size).and_then(|size| Frame::new(description, size, meshes));
+        let made = job.size.clone().and_then(|size| Frame::new(description, size, meshes));
         let frame = match made {
             Ok(frame) => frame,
             Err(refusal) => {
@@ -214,15 +214,7 @@ impl Show<'_> {
                 return;
             }
         };
-        self.tell(&Event::Frame {
-            frame: self.frame,
-            doc: job.work.doc.clone(),
-            version: job.work.version,
-            time: job.work.time,
-            width: frame.resolution().width(),
-            height: frame.resolution().height(),
-            passes: frame.passes().len(),
-        });
+        self.tell(&frame.event(self.frame, &job.work));
         self.render(&frame);
     }
 
@@ -312,21 +304,8 @@ impl Drop for CountWhenDropped<'_> {
     }
 }
 
-/// The size that is asked for.
-fn size(size: [Option<u32>; 2]) -> Result<Option<Resolution>, Refusal> {
-    match size {
-        [Some(width), Some(height)] => {
-            let size = Resolution::new(width.into(), height.into());
-            size.map(Some).map_err(|error| Refusal::new(error.to_string()))
-        }
-        _ => Ok(None),
-    }
-}
-
 /// Renders a picture as a file on a thread of its own, which answers.
 pub(super) fn render_file(job: FileJob, desk: Arc<Desk>, send: Send) -> Result<(), Refusal> {
-    let format = PictureFormat::from_name(&job.format);
-    let format = format.ok_or_else(|| Refusal::new(format!("there is no picture format {:?}", job.format)))?;
     if desk.files.fetch_add(1, Ordering::Relaxed) >= MOST_FILES_AT_ONCE {
         desk.files.fetch_sub(1, Ordering::Relaxed);
         let help = "wait until one of them is there";
@@ -335,7 +314,7 @@ pub(super) fn render_file(job: FileJob, desk: Arc<Desk>, send: Send) -> Result<(
     let control = Arc::new(Control::new());
     desk.lock().controls.push((job.id, control.clone()));
     thread::spawn(move || {
-        let made = catch_unwind(AssertUnwindSafe(|| file(&job, format, &control)));
+        let made = catch_unwind(AssertUnwindSafe(|| job.work.file(&job.format, &control)));
         let made = made.unwrap_or_else(|_| Err(Refusal::new("the engine made a mistake with this scene")));
         desk.lock().controls.retain(|(id, _)| *id != job.id);
         desk.files.fetch_sub(1, Ordering::Relaxed);
@@ -343,39 +322,11 @@ pub(super) fn render_file(job: FileJob, desk: Arc<Desk>, send: Send) -> Result<(
             Err(refusal) => {
                 send(Outgoing::Text(answer(job.id, &Err(refusal))));
             }
-            Ok((name, bytes)) => {
-                let mime = mime(format);
-                send(Outgoing::Text(answer(job.id, &Ok(json!({ "name": name, "mime": mime })))));
-                send(Outgoing::Binary(file_message(job.id, &bytes)));
+            Ok(file) => {
+                send(Outgoing::Text(answer(job.id, &Ok(json!({ "name": file.name, "mime": file.mime })))));
+                send(Outgoing::Binary(file_message(job.id, &file.bytes)));
             }
         }
     });
     Ok(())
-}
-
-fn file(job: &FileJob, format: PictureFormat, control: &Control) -> Result<(String, Vec<u8>), Refusal> {
-    let work = &job.work;
-    let stopped = || Refusal::new("the render was stopped");
-    let evaluated = work.evaluate(&Arc::default()).ok_or_else(stopped)?;
-    let errors = || Refusal::new("the scene has errors, so there is no picture of it").with_help("mend them first");
-    let description = evaluated.description.ok_or_else(errors)?;
-    crate::frame::check_size(description.resolution)?;
-    let made = hray::render_to_bytes(&description, &Options::default(), format, control);
-    let (bytes, _) = made.map_err(|error| Refusal::new(error.to_string()))?;
-    let name = work.doc.rsplit('/').next().unwrap_or(&work.doc);
-    let name = name.strip_suffix(".hry").unwrap_or(name);
-    Ok((format!("{name}.{}", format.extensions().first().unwrap_or(&"ppm")), bytes))
-}
-
-/// What a format is called on the web.
-const fn mime(format: PictureFormat) -> &'static str {
-    match format {
-        PictureFormat::Png => "image/png",
-        PictureFormat::Jpeg => "image/jpeg",
-        PictureFormat::WebP => "image/webp",
-        PictureFormat::Bmp => "image/bmp",
-        PictureFormat::Tiff => "image/tiff",
-        PictureFormat::Ppm | PictureFormat::PpmAscii => "image/x-portable-pixmap",
-        _ => "application/octet-stream",
-    }
 }
