@@ -36,7 +36,7 @@ step "the binary and the playground"
 export CARGO_TARGET_DIR=${CARGO_TARGET_DIR:-$root/target}
 (cd "$root" && cargo build --release --locked --bin hray)
 export HRAY_PLAYGROUND="$fresh/playground"
-(cd "$root" && cargo xtask playground "$HRAY_PLAYGROUND")
+(cd "$root" && cargo xtask playground --out "$HRAY_PLAYGROUND")
 
 step "the suite"
 if [ -z "${HRAY_CLASSIC:-}" ] && [ -d "$root/../shared/classic" ]; then

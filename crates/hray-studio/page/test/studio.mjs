@@ -48,8 +48,20 @@ export function hray(...args) {
   return execFileSync(binary, args, { encoding: "utf8", stdio: ["ignore", "pipe", "pipe"] });
 }
 
+/** While the page is worked on: the bundle as it lies here, in place of the one in the binary (HRAY_PAGE=1). */
+async function fresh(context, address) {
+  if (!process.env.HRAY_PAGE) return;
+  const dist = fileURLToPath(new URL("../../dist/", import.meta.url));
+  const { origin } = new URL(address);
+  await context.route(
+    (url) => url.origin === origin && !["/ws", "/alive"].includes(url.pathname),
+    (route) => route.fulfill({ path: join(dist, new URL(route.request().url()).pathname.slice(1) || "index.html") }),
+  );
+}
+
 /** A page that fails the test when something in it goes wrong. */
 export async function open(context, address) {
+  await fresh(context, address);
   const page = await context.newPage();
   page.wrong = [];
   page.on("pageerror", (error) => page.wrong.push(error.stack ?? error.message));
