@@ -429,11 +429,11 @@ export class Studio implements Host {
   }
 
   private isHere(place: Place): boolean {
-    return !place.file || place.file === this.documents.current.name;
+    return place.path === this.documents.current.name;
   }
 
   private async jump(place: Place, focus: boolean): Promise<void> {
-    if (!this.isHere(place) && !(await this.documents.open(place.file ?? ""))) return;
+    if (!this.isHere(place) && !(await this.documents.open(place.path))) return;
     this.editor.select(place.from, place.to, focus);
   }
 

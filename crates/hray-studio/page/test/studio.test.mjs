@@ -160,7 +160,7 @@ test("what a pixel is said to hold is what the picture has there", async () => {
   await settled(page);
   await clickPixel(page, 100, 75);
   await page.getByRole("heading", { name: /sphere/ }).waitFor();
-  const said = await page.locator(".explain-facts dd").nth(1).innerText();
+  const said = await page.locator(".explain-shown").innerText();
   assert.equal(await page.locator(".readout-value").innerText(), said);
   const { display } = JSON.parse(hray("explain", join(scenes.path, "ball.hry"), "100", "75", "--json"));
   assert.equal(said, display);

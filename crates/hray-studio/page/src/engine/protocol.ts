@@ -85,59 +85,84 @@ export interface Summary {
   spot_lights?: number;
 }
 
+/** An expression in a file. */
 export interface Place {
-  file: string | null;
-  from: number;
-  to: number;
+  file: string;
+  /** From the opened folder. */
+  path: string;
   line: number;
   column: number;
+  from: number;
+  to: number;
+  /** The expression on one line. */
+  text: string;
 }
 
-export interface ObjectFacts {
-  name?: string | null;
+export interface SceneObject {
+  index: number;
   kind: string;
-  place?: Place | null;
+  /** The definition that made it. */
+  name: string | null;
+  place: Place | null;
+  /** The calls that led there, the innermost first. */
+  calls: Place[];
 }
 
-export interface HitFacts extends ObjectFacts {
-  object: number;
-  point: Colour;
-  normal: Colour;
-  uv?: [number, number] | null;
-  inside?: boolean;
-  material?: unknown;
-  base?: Colour | null;
+export interface Surface {
+  color: Colour;
+  reflection: number;
+  transparency: number;
+  ior: number;
+  highlight: number;
+  shine: number;
 }
 
-export interface LightFacts {
+export interface LightShare {
   light: number;
   kind: string;
-  place?: Place | null;
-  visible: boolean | number;
-  shadowed_by: ObjectFacts | null;
+  place: Place | null;
+  reach: "lit" | "everywhere" | "behind" | "outside-cone" | "shadowed";
+  shadowed_by: SceneObject | null;
+  diffuse: Colour;
+  highlight: Colour;
   contribution: Colour;
-  parts?: Record<string, Colour>;
 }
 
+export interface Hit {
+  object: SceneObject;
+  point: Colour;
+  normal: Colour;
+  inside: boolean;
+  material: Surface;
+  lights: LightShare[];
+  mirrored: string;
+  refracted: string;
+  clipped: boolean;
+}
+
+/** A ray of the list; its parent stands before it. */
 export interface Ray {
+  index: number;
+  parent: number | null;
+  level: number;
   kind: string;
-  origin: Colour;
-  direction: Colour;
   distance: number | null;
   color: Colour;
-  weight: Colour | number;
-  hit: HitFacts | null;
-  lights: LightFacts[];
-  children: Ray[];
+  weight: number;
+  in_pixel: Colour;
+  hit: Hit | null;
 }
 
+/** What `hray explain --json` prints. Colours are what the scene computes with. */
 export interface Explanation {
   pixel: [number, number];
   color: Colour;
   display: string;
   samples: number;
-  object: ObjectFacts | null;
-  root: Ray;
+  seen: { object: SceneObject | null; samples: number }[];
+  object: SceneObject | null;
+  rays: Ray[];
+  omitted: number;
 }
 
 export interface CompletionItem {

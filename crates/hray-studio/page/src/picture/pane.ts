@@ -32,6 +32,9 @@ interface Frame {
 const MOST_PIXELS = 16_000_000;
 /** While a scene plays, a frame should take no longer than this, in seconds; the size gives way. */
 const PLAY_FRAME = 0.09;
+/** In milliseconds. */
+const PATIENCE = 350;
+const SMALLEST = 0.125;
 
 export class PicturePane {
   readonly element: HTMLElement;
@@ -51,6 +54,8 @@ export class PicturePane {
   private playScale = 1;
   private playFrom = { clock: 0, time: 0 };
   private waiting = false;
+  /** When the frame that is waited for was asked for. */
+  private asked = 0;
 
   constructor(private readonly events: PaneEvents) {
     this.picture = new PictureView({
@@ -239,7 +244,12 @@ export class PicturePane {
   /** While the scene plays: the next moment, once the one before is drawn. */
   private tick(): void {
     requestAnimationFrame(() => this.tick());
-    if (!this.timeline.playing || this.waiting) return;
+    if (!this.timeline.playing) return;
+    if (this.waiting) {
+      // A frame that takes far too long is given up for a smaller one.
+      if (performance.now() - this.asked < PATIENCE || this.playScale <= SMALLEST) return;
+      this.playScale /= 2;
+    }
     const { length } = this.timeline;
     const time = this.playFrom.time + (performance.now() - this.playFrom.clock) / 1000;
     if (time >= length && !this.timeline.loop) {
@@ -249,13 +259,14 @@ export class PicturePane {
     }
     this.timeline.set(time % length);
     this.waiting = true;
+    this.asked = performance.now();
     this.events.view();
   }
 
   private played(seconds: number): void {
     this.waiting = false;
     if (!this.timeline.playing) return;
-    if (seconds > PLAY_FRAME && this.playScale > 0.125) this.playScale /= 2;
+    if (seconds > PLAY_FRAME && this.playScale > SMALLEST) this.playScale /= 2;
     else if (seconds < PLAY_FRAME / 5 && this.playScale < 1) this.playScale *= 2;
   }
 
