@@ -330,7 +330,7 @@ fn blame_values_that_were_set(
     (name, path): (&str, &str),
     program: &Program,
     options: &LoadOptions,
-    assets: &FolderAssets,
+    assets: &SceneAssets,
 ) {
     let Some(first) = diagnostics.iter_mut().find(|diagnostic| diagnostic.is_error()) else { return };
     // An error in what was set itself shows the place anyway.
