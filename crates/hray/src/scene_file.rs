@@ -343,7 +343,7 @@ fn blame_values_that_were_set(
     }
     let (Some(set), Some(root)) = (options.set.first(), program.sources.files().first()) else { return };
     let mut found = Vec::new();
-    let plain = Program::load(name, path, root.text.clone(), &[], assets, &mut found);
+    let plain = Program::load(name, path, root.text.clone(), &[], assets.get(), &mut found);
     types::check(&plain, &mut found);
     if found.iter().any(Diagnostic::is_error) {
         return;
