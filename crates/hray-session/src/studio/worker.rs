@@ -326,8 +326,9 @@ pub(super) fn aside(
             Ok((value, binary)) => (Ok(value), binary),
             Err(refusal) => (Err(refusal), None),
         };
-        if send(Outgoing::Text(answer(id, &answered))) {
-            binary.into_iter().for_each(|bytes| drop(send(Outgoing::Binary(bytes))));
+        // Whether anybody still listens matters no more.
+        if let (true, Some(bytes)) = (send(Outgoing::Text(answer(id, &answered))), binary) {
+            send(Outgoing::Binary(bytes));
         }
     });
     Ok(())
