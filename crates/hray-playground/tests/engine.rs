@@ -31,7 +31,8 @@ fn engines_that_share_the_tiles_make_the_picture_of_one() {
         told.push(show(engine, 3, &view));
     }
     assert_eq!(told[0], told[1]);
-    let events: Vec<&str> = told[0]["events"].as_array().unwrap().iter().map(|e| e["event"].as_str().unwrap()).collect();
+    let events: Vec<&str> =
+        told[0]["events"].as_array().unwrap().iter().map(|e| e["event"].as_str().unwrap()).collect();
     assert_eq!(events, ["problems", "scene", "frame"]);
     let mut tiles = Vec::new();
     for (pass, count) in told[0]["tiles"].as_array().unwrap().iter().enumerate() {

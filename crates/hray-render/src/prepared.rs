@@ -2,7 +2,7 @@
 
 use crate::classic::{Integrator, MeshTrees, Scratch, TooManyParts};
 use crate::sampler::PixelSamples;
-use crate::{Control, RayCounts, RenderError, Region, Settings};
+use crate::{Control, RayCounts, Region, RenderError, Settings};
 use hray_core::{Description, NoiseTables, Rgb};
 use std::convert::Infallible;
 use std::num::NonZeroU32;

@@ -81,9 +81,10 @@ pub use hray_core::{
     WindowCamera,
 };
 pub use hray_io::{
-    AnimationFormat, AnimationWriter, Destination, FileStamp, Folder, FolderError, Input, InputError, MAX_FPS, MAX_MODEL_BYTES,
-    MAX_SOURCE_BYTES, MIN_FPS, OutputError, PictureFormat, Quoted, TablesError, UnknownFormat, create_folder, decode_image, decode_model,
-    model_format, parse_noise_tables, read_model, read_noise_tables, read_source, same_file, write_text,
+    AnimationFormat, AnimationWriter, Destination, FileStamp, Folder, FolderError, Input, InputError,
+    MAX_FPS, MAX_MODEL_BYTES, MAX_SOURCE_BYTES, MIN_FPS, OutputError, PictureFormat, Quoted, TablesError,
+    UnknownFormat, create_folder, decode_image, decode_model, model_format, parse_noise_tables, read_model,
+    read_noise_tables, read_source, same_file, write_text,
 };
 pub use hray_lang::Language;
 pub use hray_lang::classic::write as write_classic;

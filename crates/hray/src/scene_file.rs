@@ -214,14 +214,11 @@ impl SceneFile {
     /// The scene at one moment after another. What does not depend on the time is worked out once.
     #[must_use]
     pub fn moments(&self) -> Moments<'_> {
-        let evaluator = self
-            .checked
-            .as_deref()
-            .map(|checked| {
-                let CheckedScene { program, assets, options, .. } = checked;
-                let evaluator = Evaluator::new(program, assets.get(), &options.limits);
-                options.stop.iter().fold(evaluator, |evaluator, stop| evaluator.stopped_by(stop))
-            });
+        let evaluator = self.checked.as_deref().map(|checked| {
+            let CheckedScene { program, assets, options, .. } = checked;
+            let evaluator = Evaluator::new(program, assets.get(), &options.limits);
+            options.stop.iter().fold(evaluator, |evaluator, stop| evaluator.stopped_by(stop))
+        });
         Moments { file: self, evaluator }
     }
 

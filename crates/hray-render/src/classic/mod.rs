@@ -45,8 +45,8 @@ use solid::Walk;
 
 pub(crate) use explain::{Owners, Recorder};
 pub use geometry::MAX_SOLID_PARTS;
-pub use mesh_trees::MeshTrees;
 pub(crate) use geometry::TooManyParts;
+pub use mesh_trees::MeshTrees;
 
 /// The most rays a batch is made of: enough to fill vectors after grouping, few enough to stay in cache.
 const BATCH: usize = 512;

@@ -60,7 +60,7 @@ impl PreparedTorus {
         let (near, direction) = (near / outer, ray.direction / length);
         // Outside of the sphere around it. (Also where one is no number.)
         let reach = 1.0 - near.dot(near);
-        if !(reach > 0.0) {
+        if reach.is_nan() || reach <= 0.0 {
             return found;
         }
         let u = self.axis.along;
@@ -84,7 +84,7 @@ impl PreparedTorus {
             let [a, b] = [(-line.tube - height) / rise, (line.tube - height) / rise];
             (low, high) = (low.max(a.min(b)), high.min(a.max(b)));
         }
-        if !(low < high) {
+        if low.is_nan() || high.is_nan() || low >= high {
             return found;
         }
         let mut pieces = Pieces::new(&line, near.dot(near), [low, high]);
@@ -102,7 +102,7 @@ impl PreparedTorus {
             }
             is_inside = ends_inside;
             start = end;
-            if !(end < high) {
+            if end >= high {
                 break;
             }
         }
@@ -177,7 +177,7 @@ impl Pieces {
         let mut before = f64::NEG_INFINITY;
         for pair in ends.windows(2) {
             let [start, end] = [pair[0], pair[1]];
-            if !(start < end) {
+            if start >= end {
                 continue;
             }
             let signs = [cubic(start).0 < 0.0, cubic(end).0 < 0.0];

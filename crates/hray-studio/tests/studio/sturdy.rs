@@ -154,7 +154,7 @@ fn memory_does_not_grow_with_edits() {
     page.view("a.hry");
     let mut edit = |version: u64| {
         page.edit("a.hry", version, &BALL.replace("1, 0)", &format!("1.{version:05}, 0)"))).unwrap();
-        if version % 10 == 0 {
+        if version.is_multiple_of(10) {
             page.event(|event| event["event"] == "scene" && event["version"] == version);
             page.ask(json!({ "do": "complete", "doc": "a.hry", "version": version, "at": 12 })).unwrap();
         }
