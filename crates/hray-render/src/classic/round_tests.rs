@@ -36,7 +36,7 @@ fn outside(shape: &Shape, p: DVec3) -> f64 {
         Shape::Torus(torus) => {
             let height = (p - torus.center).dot(torus.axis);
             let distance = (p - torus.center - torus.axis * height).length();
-            (distance - torus.radius).hypot(height) - torus.tube
+            libm::hypot(distance - torus.radius, height) - torus.tube
         }
         _ => unreachable!(),
     }
@@ -179,7 +179,7 @@ proptest! {
     #[test]
     fn powers_of_two_change_nothing(shape in solid(), origin in vector(9.0), target in vector(3.0), k in -40..40) {
         prop_assume!(origin.distance(target) > 0.1);
-        let factor = f64::from(k).exp2();
+        let factor = libm::exp2(f64::from(k));
         let ray = Ray { origin, direction: target - origin };
         let large = Ray { origin: ray.origin * factor, direction: ray.direction * factor };
         let (small, scaled) = (round(&shape), round(&scaled(&shape, factor)));
@@ -234,8 +234,10 @@ fn grazing_rays_are_told_apart() {
         let ring = round(&torus(DVec3::ZERO, DVec3::Y, radius, tube));
         for step in 0..2000 {
             let angle = f64::from(step) * 0.003;
-            let (side, ahead) =
-                (DVec3::new(angle.cos(), 0.0, angle.sin()), DVec3::new(-angle.sin(), 0.0, angle.cos()));
+            let (side, ahead) = (
+                DVec3::new(libm::cos(angle), 0.0, libm::sin(angle)),
+                DVec3::new(-libm::sin(angle), 0.0, libm::cos(angle)),
+            );
             for direction in [ahead, DVec3::Y, (ahead + DVec3::Y).normalize()] {
                 for (off, met) in [(-1e-11, true), (1e-11, false)] {
                     let ray = Ray { origin: side * (radius + tube + off) - direction * 7.0, direction };
