@@ -72,7 +72,7 @@ fn files_are_imported_from_the_folder_and_errors_are_shown_in_them() {
     let folder = folder();
     std::fs::create_dir_all(folder.path("parts/deep")).unwrap();
     folder.write("parts/palette.hry", "warm = gold\n");
-    folder.write("parts/deep/use.hry", "import \"../palette.hry\"\nscene = { background = warm }\n");
+    folder.write("parts/deep/use.hry", "import \"../palette.hry\"\nscene = { background = warm, objects = [ sphere {} ], lights = [ ambient {} ] }\n");
     folder.run("render parts/deep/use.hry").says(1, &["leads out of the root folder", "--root FOLDER"]);
     folder.run("check parts/deep/use.hry --root parts").says(0, &["no errors, no warnings"]);
     folder.run("check parts/deep/use.hry --root .").says(0, &["no errors"]);
@@ -87,7 +87,7 @@ fn files_are_imported_from_the_folder_and_errors_are_shown_in_them() {
     folder.write("lamp.hry", "import \"parts/pallete.hry\"\nscene = { background = black }\n");
     folder.run("check lamp.hry").says(1, &["lamp.hry:1:8", "did you mean \"parts/palette.hry\"?"]);
     folder.write("parts/palette.hry", "warm = gold +\n");
-    folder.write("lamp.hry", "import \"parts/palette.hry\"\nscene = { background = warm }\n");
+    folder.write("lamp.hry", "import \"parts/palette.hry\"\nscene = { background = warm, objects = [ sphere {} ], lights = [ ambient {} ] }\n");
     folder.run("check lamp.hry").says(1, &["parts/palette.hry:"]);
     folder.write("parts/palette.hry", "import \"../lamp.hry\"\nwarm = gold\n");
     folder.run("check lamp.hry").says(1, &["in a circle"]);
@@ -135,12 +135,12 @@ fn images_are_read_from_the_folder() {
 fn a_file_that_is_imported_is_not_replaced() {
     let folder = folder();
     folder.write("palette.ppm", "warm = gold\n");
-    folder.write("a.hry", "import \"palette.ppm\"\nscene = { size = (4, 3), background = warm }\n");
+    folder.write("a.hry", "import \"palette.ppm\"\nscene = { size = (4, 3), background = warm, objects = [ sphere {} ], lights = [ ambient {} ] }\n");
     folder.run("render a.hry -o palette.ppm").says(2, &["would replace a file that the scene imports"]);
     folder.run("a.hry palette.ppm").says(2, &["would replace a file that the scene imports"]);
     assert_eq!(folder.read("palette.ppm"), b"warm = gold\n");
     std::fs::create_dir(folder.path("deep")).unwrap();
-    folder.write("deep/a.hry", "import \"../palette.ppm\"\nscene = { size = (4, 3), background = warm }\n");
+    folder.write("deep/a.hry", "import \"../palette.ppm\"\nscene = { size = (4, 3), background = warm, objects = [ sphere {} ], lights = [ ambient {} ] }\n");
     folder
         .run_in("deep", "render a.hry --root .. -o ../palette.ppm")
         .says(2, &["would replace a file that the scene imports"]);

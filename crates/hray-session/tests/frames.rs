@@ -55,7 +55,7 @@ const GLASS: &str = "scene = {
   objects = [
     plane {},
     sphere { center = (0, 1, 0), material = classic { color = #222222, transparency = 0.8, reflection = 0.2 } },
-    triangles { points = [(0, 0, 0), (1, 0, 0), (0, 1, 0)], faces = [[0, 1, 2]] } |> move (1, 0, 1),
+    triangles { points = [(0, 0, 0), (1, 0, 0), (0, 1, 0)], faces = [[0, 1, 2]] } |> translate (1, 0, 1),
   ],
   lights = [ point { position = (3, 4, 5) } ],
 }";

@@ -59,7 +59,7 @@ fn settings_and_budgets_hold_at_every_moment() {
 fn a_scene_in_memory_reads_files_only_where_a_root_is_given() {
     let folder = tempfile::tempdir().unwrap();
     fs::write(folder.path().join("colors.hry"), "warm = gold\n").unwrap();
-    let text = "import \"colors.hry\"\nscene = { background = warm }\n";
+    let text = "import \"colors.hry\"\nscene = { background = warm, objects = [ sphere {} ], lights = [ ambient {} ] }\n";
     let file = SceneFile::parse("memory", text.into(), &LintLevels::default());
     assert!(file.report(false).contains("so there is no folder to read it from"), "{}", file.report(false));
     let root = Some(folder.path().to_owned());
@@ -84,7 +84,7 @@ fn errors_know_their_files() {
     let folder = tempfile::tempdir().unwrap();
     fs::write(folder.path().join("colors.hry"), "-- A comment.\nwarm = glod\n").unwrap();
     let scene = folder.path().join("scene.hry");
-    fs::write(&scene, "import \"colors.hry\"\nscene = { background = warm }\n").unwrap();
+    fs::write(&scene, "import \"colors.hry\"\nscene = { background = warm, objects = [ sphere {} ], lights = [ ambient {} ] }\n").unwrap();
     let file = SceneFile::read(&Input::File(scene), &LoadOptions::default()).unwrap();
     let findings = file.findings().0;
     let [finding] = &findings[..] else { panic!("{}", file.report(false)) };
