@@ -43,7 +43,7 @@ fn engines_that_share_the_tiles_make_the_picture_of_one() {
             tiles.push(one);
         }
     }
-    assert_eq!(tiles.len(), 4 + 4);
+    assert_eq!(tiles.len(), 1 + 1 + 4);
     assert!(engines[0].tile(0, 99).is_empty() && engines[0].tile(9, 0).is_empty());
     assert!(engines[0].rays() > 1000.0);
 }

@@ -8,6 +8,7 @@ use axum::extract::ws::WebSocketUpgrade;
 use axum::extract::{FromRequestParts, Request, State};
 use axum::http::{Method, Response, StatusCode};
 use axum::middleware::{Next, from_fn_with_state};
+use axum::serve::ListenerExt;
 use hray_session::{About, Files, FolderFiles, MOST_TEXT, Session};
 use std::fmt;
 use std::net::{Ipv4Addr, SocketAddr};
@@ -121,6 +122,10 @@ impl Server {
         let routes = routes.layer(from_fn_with_state(shared, admit));
         let (stop, stopped) = oneshot::channel::<()>();
         let served = runtime.spawn(async move {
+            // What is ready goes out at once: a tile does not wait until the page has confirmed the message before it.
+            let listener = listener.tap_io(|stream| {
+                let _ = stream.set_nodelay(true);
+            });
             let serve = axum::serve(listener, routes).with_graceful_shutdown(async {
                 let _ = stopped.await;
             });

@@ -6,7 +6,7 @@ use serde_json::{Value, json};
 /// A classic scene.
 const CLASSIC: &str = "renderDescr ( resolution (133,70) ) 3 [
   scene { camera (0.0,0.0,150.0) (100,75) } { background (0.2,0.3,0.5) }
-  { objects (object ( sphere 25.0 (0.0,0.0,-50.0) ) ( texture ( diff perlin ( perlinSolid (0.9,0.5,0.1) 4 20.0 ) ) 0.3 20 0.0 0.0 )) }
+  { objects (object ( sphere 25.0 (0.0,0.0,-50.0) ) ( texture ( diff perlin ( perlinWood (0.4,0.23,0.1) 5 120.0 0.12 40.0 ) ) 0.3 20 0.0 0.0 )) }
   { lights (pointLight (80.0,80.0,100.0) (0.9,0.9,0.9)) } ]";
 
 /// Puts the tiles of a picture together as a page does; what it looks like after each pass, as red, green and blue.
@@ -105,7 +105,7 @@ fn errors_are_told_with_what_mends_them() {
 fn questions_about_a_text_are_answered() {
     let studio = Studio::with(&[]);
     let mut page = studio.page();
-    let text = "-- \u{1d11e}\ngold = #ffcc00\nball = sphere { radius = 1.25, color = gold }\nscene = { objects = [ ball, rotateY 30deg ball ] }\n";
+    let text = "-- \u{1d11e}\ngold = #ffcc00\nball = sphere { radius = 1.25, material = classic { color = gold } }\nscene = { objects = [ ball, rotate up 30deg ball ] }\n";
     page.edit("a.hry", 3, text).unwrap();
     let at = |needle: &str| text[..text.find(needle).unwrap()].encode_utf16().count();
     let mut ask = |name: &str, more: Value| {
@@ -123,7 +123,7 @@ fn questions_about_a_text_are_answered() {
         place,
         json!({ "doc": "a.hry", "name": "a.hry", "text": null, "from": at("gold ="), "to": at("gold =") + 4 })
     );
-    let library = ask("definition", json!({ "at": at("rotateY") })).unwrap();
+    let library = ask("definition", json!({ "at": at("rotate up") })).unwrap();
     assert!(library["doc"].is_null() && library["text"].as_str().unwrap().len() > 100, "{library}");
     let colors = ask("colors", json!({})).unwrap();
     assert_eq!(colors, json!([{ "from": at("#ffcc"), "to": at("#ffcc") + 7, "color": [1.0, 0.8, 0.0] }]));
@@ -134,6 +134,7 @@ fn questions_about_a_text_are_answered() {
     let numbers = ask("numbers", json!({})).unwrap();
     assert_eq!(numbers.as_array().unwrap().len(), 2);
     assert_eq!((&numbers[0]["value"], &numbers[0]["step"]), (&json!(1.25), &json!(0.01)));
+    assert_eq!((&numbers[0]["min"], &numbers[1]["min"]), (&json!(0.01), &json!(null)));
     assert_eq!(
         (&numbers[1]["value"], &numbers[1]["unit"], &numbers[1]["step"]),
         (&json!(30.0), &json!("deg"), &json!(1.0))

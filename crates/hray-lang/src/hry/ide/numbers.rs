@@ -69,7 +69,7 @@ fn number(text: &str, span: Span, range: Range) -> Option<NumberPlace> {
     let last = exponent.parse::<i32>().ok()? - i32::try_from(decimals).ok()?;
     let step = format!("1e{last}").parse().ok().filter(|step: &f64| *step > 0.0 && !whole).unwrap_or(1.0);
     let (least, most) = match range {
-        Range::Positive => (Some(step), None),
+        Range::Positive | Range::Radius => (Some(step), None),
         Range::NonNegative | Range::Light => (Some(0.0), None),
         Range::Share => (Some(0.0), Some(1.0)),
         Range::Whole(least, most) => (Some(least), Some(most)),
