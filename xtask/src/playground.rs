@@ -18,7 +18,10 @@ pub fn run(out: Option<&str>) -> Result<()> {
     let out = out.map_or_else(|| target.join("playground"), PathBuf::from);
     let page = root().join("crates/hray-studio/dist");
     if !page.join("index.html").exists() {
-        return Err(format!("{} has no page; crates/hray-studio/page/README.md says how it is built", page.display()));
+        return Err(format!(
+            "{} has no page; crates/hray-studio/page/README.md says how it is built",
+            page.display()
+        ));
     }
     let cargo = std::env::var("CARGO").unwrap_or_else(|_| "cargo".into());
     let build = ["build", "--locked", "--profile", "playground", "--target", "wasm32-unknown-unknown"];
@@ -44,7 +47,9 @@ fn bindgen(cargo: &str, target: &Path) -> Result<PathBuf> {
     let own = tools.join("bin").join(format!("wasm-bindgen{}", std::env::consts::EXE_SUFFIX));
     for program in [OsStr::new("wasm-bindgen"), own.as_os_str()] {
         let told = Command::new(program).arg("--version").output();
-        if told.is_ok_and(|told| String::from_utf8_lossy(&told.stdout).trim().ends_with(&format!(" {version}"))) {
+        if told
+            .is_ok_and(|told| String::from_utf8_lossy(&told.stdout).trim().ends_with(&format!(" {version}")))
+        {
             return Ok(program.into());
         }
     }
@@ -64,7 +69,8 @@ fn optimise(module: &Path) -> Result<()> {
 
 fn command(command: &mut Command) -> Result<()> {
     let name = command.get_program().to_string_lossy().into_owned();
-    let status = command.current_dir(root()).status().map_err(|error| format!("cannot run {name}: {error}"))?;
+    let status =
+        command.current_dir(root()).status().map_err(|error| format!("cannot run {name}: {error}"))?;
     if status.success() { Ok(()) } else { Err(format!("{name} failed")) }
 }
 

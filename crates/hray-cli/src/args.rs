@@ -17,6 +17,7 @@ Examples:
   hray render bunny.ply                    shows a mesh on a floor
   hray render orbit.hry --frames 0..47 -o orbit.gif
   hray check scene.hry                     says what is wrong with it
+  hray explain scene.hry 400 300           says where a pixel's colour comes from
   hray scene.hry scene.ppm                 the classic form
 
 Exit codes: 0 all went well, 1 something is wrong with the input or could not be
@@ -47,6 +48,8 @@ pub(crate) enum Command {
     Check(CheckArgs),
     /// Show what is in a scene
     Info(InfoArgs),
+    /// Explain a pixel: which object it shows, which line made that, which rays and lights its colour comes from
+    Explain(Box<ExplainArgs>),
     /// Lay out scenes in hry in the one common style
     Fmt(FmtArgs),
     /// Turn a classic scene into one in hry that gives the same picture, or a file of meshes into one that shows it
@@ -217,6 +220,53 @@ pub(crate) struct InfoArgs {
     #[command(flatten)]
     pub scene: SceneArgs,
 }
+
+/// `hray explain`.
+#[derive(Args, Debug)]
+#[command(after_help = EXPLAIN_HELP)]
+pub(crate) struct ExplainArgs {
+    /// The scene file, or - for the standard input; or a file of meshes (ply, stl, obj, gltf, glb)
+    pub input: PathBuf,
+    /// The pixel's column, counted from 0 at the left
+    #[arg(value_name = "X", allow_negative_numbers = true, value_parser = values::coordinate)]
+    pub x: u32,
+    /// The pixel's row, counted from 0 at the top, as image viewers count
+    #[arg(value_name = "Y", allow_negative_numbers = true, value_parser = values::coordinate)]
+    pub y: u32,
+    /// Write JSON, for programs: everything, with all digits
+    #[arg(long)]
+    pub json: bool,
+    /// Show all rays, the faint ones too
+    #[arg(long)]
+    pub all: bool,
+    /// The size of the picture, instead of the scene's
+    #[arg(long, value_name = "WxH", allow_hyphen_values = true, value_parser = values::size)]
+    pub size: Option<Resolution>,
+    /// How many times a ray may be reflected or refracted, -1 to 10000, instead of the scene's number
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = values::depth)]
+    pub depth: Option<Depth>,
+    /// Samples a pixel, 1 to 65536, instead of the scene's number
+    #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = values::samples)]
+    pub samples: Option<NonZeroU32>,
+    #[command(flatten)]
+    pub common: CommonArgs,
+    /// The moment to look at of a scene that is a function of the time [default: 0]
+    #[arg(long, value_name = "SECONDS", allow_negative_numbers = true, value_parser = values::seconds)]
+    pub time: Option<f64>,
+    #[command(flatten)]
+    pub scene: SceneArgs,
+    #[command(flatten)]
+    pub lints: LintArgs,
+}
+
+const EXPLAIN_HELP: &str = "\
+The colour is exactly the one that `hray render` with the same options gives the
+pixel. Where a pixel has several samples, its colour is their mean, and the rays
+that are shown are those through its centre.
+
+For example:
+  hray explain scene.hry 400 300
+  hray explain scene.hry 400 300 --json";
 
 /// `hray fmt`.
 #[derive(Args, Debug)]

@@ -3,7 +3,7 @@
 use crate::args::Cli;
 use crate::console::Console;
 use clap::CommandFactory;
-use hray::{Error, LoadError};
+use hray::{Error, ExplainError, LoadError};
 use std::io;
 use std::process::ExitCode;
 
@@ -61,7 +61,9 @@ impl Failure {
 impl From<Error> for Failure {
     fn from(error: Error) -> Self {
         match error {
-            Error::Options(_) | Error::Format(_) => Self::Usage(error.to_string()),
+            Error::Options(_) | Error::Format(_) | Error::Explain(ExplainError::Outside { .. }) => {
+                Self::Usage(error.to_string())
+            }
             // Its diagnostics were shown when it was read.
             Error::Load(LoadError::Scene(_)) => Self::Told,
             Error::Cancelled => Self::Interrupted("interrupted".to_owned()),

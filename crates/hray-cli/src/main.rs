@@ -12,6 +12,8 @@ mod check;
 mod classic;
 mod console;
 mod convert;
+mod explain;
+mod explain_text;
 mod failure;
 mod fmt;
 mod generate;
@@ -50,6 +52,7 @@ fn run(console: &Console) -> Result<(), Failure> {
         Some(Command::Render(arguments)) => render::run(arguments, console),
         Some(Command::Check(arguments)) => check::run(arguments, console),
         Some(Command::Info(arguments)) => info::run(arguments, console),
+        Some(Command::Explain(arguments)) => explain::run(arguments, console),
         Some(Command::Fmt(arguments)) => fmt::run(arguments, console),
         Some(Command::Convert(arguments)) => convert::run(arguments, console),
         Some(Command::Lsp { .. }) => lsp::run(),

@@ -30,6 +30,11 @@ pub(crate) fn depth(text: &str) -> Result<Depth, String> {
     depth.ok_or_else(|| format!("a depth is a whole number from {MIN_DEPTH} to {MAX_DEPTH}"))
 }
 
+/// A column or a row of a picture.
+pub(crate) fn coordinate(text: &str) -> Result<u32, String> {
+    text.parse().map_err(|_| "a pixel's place is a whole number, counted from 0".to_owned())
+}
+
 /// `1` to `65536`.
 pub(crate) fn samples(text: &str) -> Result<NonZeroU32, String> {
     let samples = text.parse().ok().filter(|samples: &NonZeroU32| samples.get() <= MAX_SAMPLES);

@@ -73,6 +73,11 @@ impl Engine {
             // What is shown is up to the page.
             Ok(Request::View(_) | Request::Stop {}) => Ok(json!({})),
             Ok(Request::RenderFile { .. }) => return String::new(),
+            Ok(Request::Explain { of, x, y, time }) => {
+                let work = self.session.work(&View { doc: of.doc.clone(), time, ..View::default() });
+                let work = work.ok_or_else(|| Refusal::new(format!("{:?} is not open", of.doc)));
+                work.and_then(|work| work.explain(x, y, &self.control))
+            }
             Ok(request) => self.session.answer(&request),
             Err(refusal) => Err(refusal),
         };
@@ -151,10 +156,8 @@ impl Engine {
             .map_err(|error| (String::new(), Refusal::new(format!("the view cannot be read: {error}"))))?;
         let doc = view.doc.clone();
         let with_doc = |refusal| (doc.clone(), refusal);
-        let work: Work = self
-            .session
-            .work(&view)
-            .ok_or_else(|| with_doc(Refusal::new(format!("{doc:?} is not open"))))?;
+        let work: Work =
+            self.session.work(&view).ok_or_else(|| with_doc(Refusal::new(format!("{doc:?} is not open"))))?;
         // Nobody sets the flag that would stop it.
         let Some(evaluated) = work.evaluate(&Arc::default()) else { return Ok(()) };
         events.extend([evaluated.problems, evaluated.scene]);

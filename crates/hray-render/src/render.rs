@@ -87,8 +87,8 @@ where
 }
 
 /// A render, cut into runs.
-struct Job<'a> {
-    integrator: Integrator,
+pub(crate) struct Job<'a> {
+    pub(crate) integrator: Integrator,
     settings: &'a Settings,
     control: &'a Control,
     pixels_per_run: u64,
@@ -96,7 +96,12 @@ struct Job<'a> {
 }
 
 impl<'a> Job<'a> {
-    fn new(integrator: Integrator, settings: &'a Settings, control: &'a Control, threads: u64) -> Self {
+    pub(crate) fn new(
+        integrator: Integrator,
+        settings: &'a Settings,
+        control: &'a Control,
+        threads: u64,
+    ) -> Self {
         let samples = u64::from(settings.samples.get());
         let fair = settings.region.pixels() / threads.saturating_mul(RUNS_PER_THREAD);
         let pixels_per_run = fair.clamp(SMALLEST_RUN, RUN).min(RUN / samples).max(1);
@@ -181,9 +186,9 @@ impl<'a> Job<'a> {
 }
 
 /// One thread's part of a job.
-struct Worker<'a> {
+pub(crate) struct Worker<'a> {
     job: &'a Job<'a>,
-    scratch: Scratch,
+    pub(crate) scratch: Scratch,
     batch: usize,
     points: Vec<[f64; 2]>,
     colors: Vec<Rgb>,
@@ -191,7 +196,7 @@ struct Worker<'a> {
 }
 
 impl<'a> Worker<'a> {
-    fn new(job: &'a Job<'a>) -> Self {
+    pub(crate) fn new(job: &'a Job<'a>) -> Self {
         Self {
             job,
             scratch: Scratch::new(),
@@ -203,7 +208,7 @@ impl<'a> Worker<'a> {
     }
 
     /// The colours of one run of pixels.
-    fn render(&mut self, run: u64) -> Result<&[Rgb], Stopped> {
+    pub(crate) fn render(&mut self, run: u64) -> Result<&[Rgb], Stopped> {
         let Settings { region, samples, .. } = *self.job.settings;
         let first = run * self.job.pixels_per_run;
         let last = (first + self.job.pixels_per_run).min(region.pixels());

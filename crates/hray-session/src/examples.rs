@@ -8,7 +8,8 @@ include!(concat!(env!("OUT_DIR"), "/examples.rs"));
 /// The examples that come with hray. `has_picture` tells whether there is a picture at an address.
 #[must_use]
 pub fn examples(has_picture: impl Fn(&str) -> bool) -> Vec<Example> {
-    let scenes = EXAMPLES.iter().filter(|(_, text)| text.starts_with("renderDescr") || text.contains("\nscene"));
+    let scenes =
+        EXAMPLES.iter().filter(|(_, text)| text.starts_with("renderDescr") || text.contains("\nscene"));
     let example = |(name, text): &(&str, &str)| {
         let picture = Some(format!("examples/{name}.jpg")).filter(|picture| has_picture(picture));
         example_of(name, text, picture)

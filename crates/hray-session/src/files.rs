@@ -12,8 +12,10 @@ pub const MOST_TEXT: usize = 8 << 20;
 /// The most files that are listed.
 pub const MOST_FILES: usize = 5000;
 /// The endings of the files that scenes can read, besides scenes.
-const OTHER_ENDINGS: &[&str] =
-    &["ply", "stl", "obj", "gltf", "glb", "png", "jpg", "jpeg", "exr", "hdr", "webp", "bmp", "tga", "tiff", "tif", "gif", "qoi"];
+const OTHER_ENDINGS: &[&str] = &[
+    "ply", "stl", "obj", "gltf", "glb", "png", "jpg", "jpeg", "exr", "hdr", "webp", "bmp", "tga", "tiff",
+    "tif", "gif", "qoi",
+];
 
 /// A folder, or what stands for one: what scenes may read, and where they are saved.
 ///
@@ -98,7 +100,8 @@ pub(crate) fn kind_of_text(text: &str) -> FileKind {
 pub(crate) fn on_disk(files: &dyn Files, path: &str) -> Result<OnDisk, Refusal> {
     match files.text(path) {
         Ok(text) if text.len() > MOST_TEXT => {
-            let message = format!("{path:?} is longer than the {} MiB that can be edited here", MOST_TEXT >> 20);
+            let message =
+                format!("{path:?} is longer than the {} MiB that can be edited here", MOST_TEXT >> 20);
             Err(Refusal::new(message))
         }
         Ok(text) => Ok(OnDisk { disk: Some(hash(text.as_bytes())), text: Some(text) }),
@@ -131,7 +134,8 @@ impl Assets for Overlay {
 
     fn neighbours(&self, path: &str) -> Vec<String> {
         let mut paths = self.files.neighbours(path);
-        let folder = |path: &str| path.rsplit_once('/').map_or(String::new(), |(folder, _)| folder.to_owned());
+        let folder =
+            |path: &str| path.rsplit_once('/').map_or(String::new(), |(folder, _)| folder.to_owned());
         paths.extend(self.open.keys().filter(|open| folder(open) == folder(path)).cloned());
         paths.sort();
         paths.dedup();

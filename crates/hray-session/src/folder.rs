@@ -78,8 +78,11 @@ impl<T> Kept<T> {
     /// Keeps a value, and lets go of those that were not used for longest where there is too much.
     fn put(&mut self, path: &str, stamp: Option<FileStamp>, value: Arc<T>, bytes: usize) {
         self.entries.insert(path.to_owned(), Entry { stamp, value, bytes, used: self.clock });
-        while self.entries.len() > 1 && self.entries.values().map(|entry| entry.bytes).sum::<usize>() > MOST_KEPT {
-            let oldest = self.entries.iter().min_by_key(|(_, entry)| entry.used).map(|(path, _)| path.clone());
+        while self.entries.len() > 1
+            && self.entries.values().map(|entry| entry.bytes).sum::<usize>() > MOST_KEPT
+        {
+            let oldest =
+                self.entries.iter().min_by_key(|(_, entry)| entry.used).map(|(path, _)| path.clone());
             let Some(oldest) = oldest else { return };
             self.entries.remove(&oldest);
         }

@@ -60,7 +60,9 @@ pub(crate) fn check_size(size: Resolution) -> Result<(), Refusal> {
     if u64::from(size.width()) * u64::from(size.height()) <= MOST_PIXELS {
         return Ok(());
     }
-    let message = format!("a picture of {size} pixels is too large to be shown here; at most {MOST_PIXELS} pixels can be");
+    let message = format!(
+        "a picture of {size} pixels is too large to be shown here; at most {MOST_PIXELS} pixels can be"
+    );
     let help = "make the scene's size smaller while you work on it, and render it with `hray render --size`";
     Err(Refusal::new(message).with_help(help))
 }
@@ -174,7 +176,8 @@ impl Frame {
             let off = |start: u32, length: u32, whole: u32| {
                 (i64::from(start) * 2 + i64::from(length) - i64::from(whole)).pow(2)
             };
-            off(tile.region.x(), tile.region.width(), width) + off(tile.region.y(), tile.region.height(), height)
+            off(tile.region.x(), tile.region.width(), width)
+                + off(tile.region.y(), tile.region.height(), height)
         };
         tiles.sort_by_key(from_middle);
         tiles

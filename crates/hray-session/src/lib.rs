@@ -8,6 +8,7 @@
 //! [`protocol`] has the messages.
 
 mod examples;
+mod explain;
 mod files;
 mod folder;
 mod frame;
@@ -21,10 +22,10 @@ mod units;
 mod uses;
 
 pub use examples::{companions, examples};
-pub use hray::{Control, Description, Limits, MeshTrees, Tracer};
 pub use files::{Files, MOST_FILES, MOST_TEXT, MemoryFiles, hash, is_inside};
 pub use folder::FolderFiles;
 pub use frame::{Frame, MOST_PIXELS, Pass, Pixels, Tile};
+pub use hray::{Control, Description, Limits, MeshTrees, Tracer};
 pub use picture::PictureFile;
 pub use scene::{Evaluated, Work};
 pub use session::{About, MOST_DOCUMENTS, Session};

@@ -28,7 +28,9 @@ impl Work {
         let format = known.ok_or_else(|| Refusal::new(format!("there is no picture format {format:?}")))?;
         let stopped = || Refusal::new("the render was stopped");
         let evaluated = self.evaluate(&Arc::default()).ok_or_else(stopped)?;
-        let errors = || Refusal::new("the scene has errors, so there is no picture of it").with_help("mend them first");
+        let errors = || {
+            Refusal::new("the scene has errors, so there is no picture of it").with_help("mend them first")
+        };
         let description = evaluated.description.ok_or_else(errors)?;
         check_size(description.resolution)?;
         let made = hray::render_to_bytes(&description, &Options::default(), format, control);

@@ -183,7 +183,8 @@ impl Message {
     /// # Errors
     /// Where it is not even known which answer to give.
     pub fn read(text: &str) -> Result<Self, Refusal> {
-        let unreadable = |error: serde_json::Error| Refusal::new(format!("the message cannot be read: {error}"));
+        let unreadable =
+            |error: serde_json::Error| Refusal::new(format!("the message cannot be read: {error}"));
         let value: Value = serde_json::from_str(text).map_err(unreadable)?;
         let id = value.get("id").and_then(Value::as_u64);
         let id = id.ok_or_else(|| Refusal::new("the message has no number `id`"))?;

@@ -5,7 +5,7 @@ use crate::units::Units;
 use hray::{Assets, Description, Diagnostic, Limits, LoadOptions, SceneFile, Severity, Span, Summary};
 use std::collections::BTreeMap;
 use std::sync::Arc;
-use std::sync::atomic::AtomicBool;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 /// A text that is to be evaluated.
 #[derive(Clone)]
@@ -44,9 +44,8 @@ pub struct Evaluated {
 }
 
 impl Work {
-    /// Evaluates; none where `stop` was set before the end.
-    #[must_use]
-    pub fn evaluate(&self, stop: &Arc<AtomicBool>) -> Option<Evaluated> {
+    /// Reads, checks and evaluates; none where `stop` was set before the end.
+    pub(crate) fn scene_file(&self, stop: &Arc<AtomicBool>) -> Option<SceneFile> {
         let options = LoadOptions {
             set: self.overrides.iter().map(|(name, value)| (name.clone(), value.clone())).collect(),
             time: self.time,
@@ -57,9 +56,13 @@ impl Work {
         };
         let bytes = self.text.as_bytes().to_vec();
         let file = SceneFile::parse_among(&self.doc, &self.doc, bytes, self.assets.clone(), &options);
-        if stop.load(std::sync::atomic::Ordering::Relaxed) {
-            return None;
-        }
+        (!stop.load(Ordering::Relaxed)).then_some(file)
+    }
+
+    /// Evaluates; none where `stop` was set before the end.
+    #[must_use]
+    pub fn evaluate(&self, stop: &Arc<AtomicBool>) -> Option<Evaluated> {
+        let file = self.scene_file(stop)?;
         let description = file.description().cloned();
         let summary = description.as_ref().map(Summary::of);
         Some(Evaluated {

@@ -306,7 +306,9 @@ impl Session {
         let (analysis, document) = self.analysis(&at.of)?;
         let offset = document.units.to_byte(&document.text, at.at);
         let mut places = analysis.references(offset, true);
-        if let Some(defined) = analysis.definition(offset).filter(|place| matches!(place.file, FileId::Own(_))) {
+        if let Some(defined) =
+            analysis.definition(offset).filter(|place| matches!(place.file, FileId::Own(_)))
+        {
             places.extend(self.users(&analysis, &defined).iter().flat_map(|other| other.uses_of(&defined)));
         }
         places.sort();
@@ -329,7 +331,8 @@ impl Session {
 
     /// The other documents and scenes of the folder that may use what is defined at a place.
     fn users(&self, analysis: &Analysis, defined: &Place) -> Vec<Arc<Analysis>> {
-        let listed = self.files.list().into_iter().map(|entry| entry.path).filter(|path| path.ends_with(".hry"));
+        let listed =
+            self.files.list().into_iter().map(|entry| entry.path).filter(|path| path.ends_with(".hry"));
         let mut paths: Vec<String> = self.documents.keys().cloned().chain(listed).collect();
         paths.retain(|path| path != analysis.path());
         paths.sort();
@@ -352,7 +355,8 @@ impl Session {
             Some(Analysis::new(path, text.into(), &overlay))
         };
         let text_of = |path: &str| overlay.text(path).ok();
-        let edits = hray::ide::rename(&roots, &renaming, name.trim(), text_of, reread).map_err(Refusal::new)?;
+        let edits =
+            hray::ide::rename(&roots, &renaming, name.trim(), text_of, reread).map_err(Refusal::new)?;
         let mut by_file: BTreeMap<&str, Vec<TextEdit>> = BTreeMap::new();
         for edit in &edits {
             let Some([from, to]) = self.span_in(&edit.path, edit.span) else { continue };

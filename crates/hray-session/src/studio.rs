@@ -4,13 +4,14 @@
 mod film;
 mod worker;
 
-use crate::protocol::{Event, Message, Refusal, Request, View, answer};
+use crate::protocol::{Event, Message, Refusal, Request, View, answer, file_message};
+use crate::scene::Work;
 use crate::session::Session;
 use serde_json::json;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
 use std::thread::{self, JoinHandle};
-use worker::{Desk, FileJob, Job};
+use worker::{Desk, Job};
 
 /// What goes to the page.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -22,7 +23,7 @@ pub enum Outgoing {
 }
 
 /// Where messages to the page go. It may take its time, which holds the renders back; false where the page is gone.
-pub(crate) type Send = Arc<dyn Fn(Outgoing) -> bool + std::marker::Send + Sync>;
+pub(crate) type Sink = Arc<dyn Fn(Outgoing) -> bool + Send + Sync>;
 
 /// A session that answers one page.
 pub struct Studio {
@@ -30,7 +31,7 @@ pub struct Studio {
     view: Option<View>,
     desk: Arc<Desk>,
     threads: Vec<JoinHandle<()>>,
-    send: Send,
+    send: Sink,
 }
 
 impl std::fmt::Debug for Studio {
@@ -45,9 +46,9 @@ impl Studio {
     pub fn new(
         session: Session,
         renderers: usize,
-        send: impl Fn(Outgoing) -> bool + std::marker::Send + Sync + 'static,
+        send: impl Fn(Outgoing) -> bool + Send + Sync + 'static,
     ) -> Self {
-        let (desk, send): (_, Send) = (Arc::new(Desk::default()), Arc::new(send));
+        let (desk, send): (_, Sink) = (Arc::new(Desk::default()), Arc::new(send));
         let renders = (desk.clone(), send.clone());
         let watches = desk.clone();
         let threads = vec![
@@ -61,7 +62,9 @@ impl Studio {
     pub fn message(&mut self, text: &str) -> bool {
         let message = match Message::read(text) {
             Ok(message) => message,
-            Err(refusal) => return self.tell(json!({ "event": "unreadable", "message": refusal.message }).to_string()),
+            Err(refusal) => {
+                return self.tell(json!({ "event": "unreadable", "message": refusal.message }).to_string());
+            }
         };
         let id = message.id;
         let answered = match message.request {
@@ -107,12 +110,18 @@ impl Studio {
                 Ok(Some(json!({})))
             }
             Request::RenderFile { of, time, format } => {
-                let view = self.view.as_ref().filter(|view| view.doc == of.doc);
-                let overrides = view.map(|view| view.overrides.clone()).unwrap_or_default();
-                let view = View { doc: of.doc.clone(), time, overrides, ..View::default() };
-                let work = self.session.work(&view);
-                let work = work.ok_or_else(|| Refusal::new(format!("{:?} is not open", of.doc)))?;
-                worker::render_file(FileJob { id, work, format }, self.desk.clone(), self.send.clone())?;
+                let work = self.work_at(&of.doc, time)?;
+                worker::aside(id, self.desk.clone(), self.send.clone(), move |control| {
+                    let file = work.file(&format, control)?;
+                    Ok((json!({ "name": file.name, "mime": file.mime }), Some(file_message(id, &file.bytes))))
+                })?;
+                Ok(None)
+            }
+            Request::Explain { of, x, y, time } => {
+                let work = self.work_at(&of.doc, time)?;
+                worker::aside(id, self.desk.clone(), self.send.clone(), move |control| {
+                    Ok((work.explain(x, y, control)?, None))
+                })?;
                 Ok(None)
             }
             Request::Edit { ref doc, .. } => {
@@ -135,6 +144,14 @@ impl Studio {
             }
             request => self.session.answer(&request).map(Some),
         }
+    }
+
+    /// A document at a moment, with the definitions replaced that are replaced in what is shown.
+    fn work_at(&self, doc: &str, time: f64) -> Result<Work, Refusal> {
+        let view = self.view.as_ref().filter(|view| view.doc == doc);
+        let overrides = view.map(|view| view.overrides.clone()).unwrap_or_default();
+        let view = View { doc: doc.to_owned(), time, overrides, ..View::default() };
+        self.session.work(&view).ok_or_else(|| Refusal::new(format!("{doc:?} is not open")))
     }
 
     /// Evaluates and renders what is to be shown.

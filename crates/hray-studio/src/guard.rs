@@ -26,10 +26,13 @@ impl Guard {
     pub(crate) fn admits(&self, headers: &HeaderMap) -> bool {
         let hosts = [format!("127.0.0.1:{}", self.port), format!("localhost:{}", self.port)];
         let mut host = headers.get_all(header::HOST).iter();
-        let known = host.next().is_some_and(|host| hosts.iter().any(|known| host.as_bytes() == known.as_bytes()));
+        let known =
+            host.next().is_some_and(|host| hosts.iter().any(|known| host.as_bytes() == known.as_bytes()));
         let origins = hosts.each_ref().map(|host| format!("http://{host}"));
         let own = |origin: &[u8]| origins.iter().any(|known| origin == known.as_bytes());
-        known && host.next().is_none() && headers.get_all(header::ORIGIN).iter().all(|origin| own(origin.as_bytes()))
+        known
+            && host.next().is_none()
+            && headers.get_all(header::ORIGIN).iter().all(|origin| own(origin.as_bytes()))
     }
 
     /// Whether a query has the token.

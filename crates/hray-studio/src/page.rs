@@ -21,7 +21,9 @@ pub(crate) fn file(path: &str) -> Response<Body> {
     };
     match embedded::page(path) {
         Some(bytes) => answer(StatusCode::OK, mime(path), Body::from(bytes)),
-        None if path == "index.html" => answer(StatusCode::OK, "text/plain; charset=utf-8", Body::from(NO_PAGE)),
+        None if path == "index.html" => {
+            answer(StatusCode::OK, "text/plain; charset=utf-8", Body::from(NO_PAGE))
+        }
         None => text(StatusCode::NOT_FOUND, "there is no such file\n"),
     }
 }

@@ -97,14 +97,20 @@ impl Server {
         let files = FolderFiles::open(&root).map_err(|error| StartError::Target(error.to_string()))?;
         let files = Arc::new(files);
         let start = start.map(|file| files.folder().path_to(&file).ok_or(file)).transpose();
-        let start = start.map_err(|file| StartError::Target(format!("{} has a name that is no text", file.display())))?;
-        let system = |error: &dyn fmt::Display| StartError::System(format!("the studio cannot be started: {error}"));
+        let start = start
+            .map_err(|file| StartError::Target(format!("{} has a name that is no text", file.display())))?;
+        let system =
+            |error: &dyn fmt::Display| StartError::System(format!("the studio cannot be started: {error}"));
         let runtime = tokio::runtime::Builder::new_multi_thread().worker_threads(2).enable_all().build();
         let runtime = runtime.map_err(|error| system(&error))?;
         let (listener, port) = runtime.block_on(listen(options.port))?;
         let guard = Arc::new(Guard::new(port).map_err(|error| system(&error))?);
         let cores = std::thread::available_parallelism().map_or(1, usize::from);
-        let about = Arc::new(About { start, examples: hray_session::examples(|picture| embedded::page(picture).is_some()), cores });
+        let about = Arc::new(About {
+            start,
+            examples: hray_session::examples(|picture| embedded::page(picture).is_some()),
+            cores,
+        });
         let (touched, _) = broadcast::channel(16);
         let tell = touched.clone();
         // Without a page there is nobody to be told.

@@ -25,27 +25,36 @@ pub(crate) fn watch(files: &Arc<FolderFiles>, changed: impl Fn(&[String]) + Send
             let _ = sender.send(event.paths);
         }
     };
-    let watcher = notify::recommended_watcher(tell);
-    let watcher = watcher.and_then(|mut watcher| {
-        watcher.watch(&root, RecursiveMode::Recursive)?;
-        Ok(watcher)
-    });
     let files = Arc::downgrade(files);
-    thread::spawn(move || match watcher {
-        Ok(watcher) => {
-            pass_on(&root, &files, &receiver, &changed);
-            drop(watcher);
-        }
-        Err(_) => {
-            while files.strong_count() > 0 {
-                thread::sleep(LOOK);
-                changed(&[]);
+    // To set it up takes a while where there are many folders.
+    thread::spawn(move || {
+        let watcher = notify::recommended_watcher(tell).and_then(|mut watcher| {
+            watcher.watch(&root, RecursiveMode::Recursive)?;
+            Ok(watcher)
+        });
+        // What changed until now nobody has told.
+        changed(&[]);
+        match watcher {
+            Ok(watcher) => {
+                pass_on(&root, &files, &receiver, &changed);
+                drop(watcher);
+            }
+            Err(_) => {
+                while files.strong_count() > 0 {
+                    thread::sleep(LOOK);
+                    changed(&[]);
+                }
             }
         }
     });
 }
 
-fn pass_on(root: &Path, files: &Weak<FolderFiles>, events: &Receiver<Vec<PathBuf>>, changed: &dyn Fn(&[String])) {
+fn pass_on(
+    root: &Path,
+    files: &Weak<FolderFiles>,
+    events: &Receiver<Vec<PathBuf>>,
+    changed: &dyn Fn(&[String]),
+) {
     let mut paths = BTreeSet::new();
     loop {
         match events.recv_timeout(if paths.is_empty() { LOOK } else { QUIET }) {

@@ -23,6 +23,8 @@ pub enum Error {
     Threads,
     /// The solids of the scene have more than [`crate::MAX_SOLID_PARTS`] parts together.
     Solids,
+    /// The pixel is not explained.
+    Explain(hray_render::ExplainError),
     /// There is not enough memory for the colours of the picture.
     Memory {
         /// Bytes that were asked for.
@@ -48,6 +50,7 @@ impl fmt::Display for Error {
                  together; a solid that is used twice counts twice",
                 crate::MAX_SOLID_PARTS
             ),
+            Self::Explain(error) => error.fmt(f),
             Self::Memory { bytes } => write!(
                 f,
                 "there is not enough memory for the colours of this picture ({} MiB); render it to a file, \
@@ -66,6 +69,7 @@ impl std::error::Error for Error {
             Self::Options(error) => Some(error),
             Self::Format(error) => Some(error),
             Self::Output(error) => Some(error),
+            Self::Explain(error) => Some(error),
             Self::Cancelled | Self::Threads | Self::Solids | Self::Memory { .. } => None,
         }
     }

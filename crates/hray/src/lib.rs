@@ -21,7 +21,8 @@
 //! The steps are there one by one, too. [`SceneFile`] is a scene, in either language, with its source text and everything
 //! there is to say about it, as text and as [`Findings`] for programs; [`LoadOptions`] say what it may read, which of its
 //! definitions are replaced, and which moment is shown, and [`SceneFile::moments`] gives one after another, for
-//! animations. [`Options`] change what the scene file asks for; [`render_to_memory`] gives the colours as
+//! animations. [`explain`] says of a pixel which object it shows, which line of the text made that, and which rays and
+//! lights its colour is the sum of. [`Options`] change what the scene file asks for; [`render_to_memory`] gives the colours as
 //! they were computed, in double precision, as a [`Picture`] that can be looked at and saved. A [`Control`],
 //! shared with another thread, tells how far a render is and stops it:
 //!
@@ -46,6 +47,7 @@
 
 mod assets;
 mod error;
+mod explain;
 mod findings;
 mod format;
 mod model_scene;
@@ -57,6 +59,10 @@ mod summary;
 mod work_folder;
 
 pub use error::{Error, LoadError};
+pub use explain::{
+    Explanation, Hit, LightShare, Object, Ray, SeenObject, SourcePlace, Surface, display_color, explain,
+    explain_pixel,
+};
 pub use findings::{Finding, FindingLabel, FindingPlace, FindingSuggestion, Findings};
 pub use format::{FormatErrors, Formatted, format_scene};
 pub use model_scene::scene_of_model;
@@ -83,10 +89,12 @@ pub use hray_lang::Language;
 pub use hray_lang::classic::write as write_classic;
 pub use hray_lang::diagnostic::{Diagnostic, Severity, Span};
 pub use hray_lang::hry::assets::{AssetError, Assets, resolve as resolve_path};
-pub use hray_lang::hry::eval::Limits;
+pub use hray_lang::hry::eval::{Limits, Origin, Origins};
 pub use hray_lang::hry::ide;
 pub use hray_lang::hry::{Sources, convert};
 pub use hray_lang::lint::{ALL_LINTS, CLASSIC_LINTS, LINTS, Level, Lint, LintLevels, UnknownLint, hry_lints};
 pub use hray_render::{
-    Control, MAX_SAMPLES, MAX_SOLID_PARTS, MeshTrees, Prepared, RayCounts, Region, RegionError, RenderError, Settings, Statistics, Tracer,
+    Control, ExplainError, ExplainedHit, ExplainedRay, Followed, LightPart, MAX_EXPLAINED_RAYS, MAX_SAMPLES,
+    MAX_SOLID_PARTS, MeshTrees, ObjectId, PixelExplanation, Prepared, RayCounts, RayKind, Reach, Region,
+    RegionError, RenderError, Seen, Settings, Statistics, Tracer,
 };

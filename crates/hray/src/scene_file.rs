@@ -4,7 +4,7 @@ use crate::assets::{FolderAssets, Given, SceneAssets};
 use crate::scene_of_model;
 use crate::{Description, Diagnostic, Error, Findings, Input, InputError, Limits, LintLevels, LoadError};
 use hray_lang::hry::assets::{AssetError, Assets};
-use hray_lang::hry::eval::Evaluator;
+use hray_lang::hry::eval::{Evaluator, Origins};
 use hray_lang::hry::{Program, Sources, types};
 use hray_lang::{Language, classic, decode, diagnostic, lint};
 use std::borrow::Cow;
@@ -38,6 +38,8 @@ pub struct SceneFile {
     language: Language,
     sources: Sources,
     description: Option<Description>,
+    /// Where its objects and lights were made.
+    origins: Origins,
     diagnostics: Vec<Diagnostic>,
     animated: bool,
     /// How many definitions there are in a file without a scene.
@@ -135,7 +137,16 @@ impl SceneFile {
     ) -> Self {
         let mut sources = Sources::default();
         sources.add(name.to_owned(), text.into());
-        Self { language, sources, description, diagnostics, animated: false, module: None, checked: None }
+        Self {
+            language,
+            sources,
+            description,
+            origins: Origins::default(),
+            diagnostics,
+            animated: false,
+            module: None,
+            checked: None,
+        }
     }
 
     fn classic(name: &str, text: String, options: &LoadOptions) -> Self {
@@ -147,7 +158,11 @@ impl SceneFile {
         diagnostics.extend(options.set.first().map(|(name, _)| nothing_to_set(name)));
         let denied = diagnostics.iter().any(Diagnostic::is_error);
         let description = parsed.description.filter(|_| !denied);
-        Self::of_one_text(Language::Classic, name, text, description, diagnostics)
+        let classic::Spans { primitives, light_list, .. } = parsed.spans;
+        Self {
+            origins: Origins::single(primitives, light_list),
+            ..Self::of_one_text(Language::Classic, name, text, description, diagnostics)
+        }
     }
 
     fn hry(name: &str, path: &str, text: Arc<str>, assets: SceneAssets, options: &LoadOptions) -> Self {
@@ -174,6 +189,7 @@ impl SceneFile {
             language: Language::Hry,
             sources: program.sources.clone(),
             description: None,
+            origins: Origins::default(),
             diagnostics: diagnostics.clone(),
             animated: false,
             module,
@@ -251,6 +267,22 @@ impl SceneFile {
         &self.sources
     }
 
+    /// Where the objects and lights of the description were made: spans in [`SceneFile::sources`].
+    #[must_use]
+    pub const fn origins(&self) -> &Origins {
+        &self.origins
+    }
+
+    /// The name of the definition that an offset in the sources lies in, where it has one and is not the scene itself.
+    pub(crate) fn definition_at(&self, offset: usize) -> Option<String> {
+        let program = &self.checked.as_ref()?.program;
+        let definitions = program.modules.iter().filter(|module| !module.is_standard);
+        let mut definitions = definitions.flat_map(|module| &module.syntax.definitions);
+        let found =
+            definitions.find(|definition| (definition.span.start..definition.span.end).contains(&offset));
+        found?.name().map(|name| name.text.to_string()).filter(|name| name != "scene")
+    }
+
     /// How many of the diagnostics are errors.
     #[must_use]
     pub fn errors(&self) -> usize {
@@ -315,6 +347,7 @@ impl Moments<'_> {
             language: Language::Hry,
             sources: self.file.sources.clone(),
             description: None,
+            origins: evaluated.origins,
             diagnostics: checked.warnings.clone(),
             animated: evaluated.animated,
             module: None,

@@ -6,6 +6,7 @@ use super::requests::Refusal;
 use super::server::Server;
 use hray::ide::{Analysis, Edit, FileId, Place, rename};
 use hray::{Assets, OpenTexts, Span};
+use hray_session::{MOST_NEIGHBOURS, difference};
 use lsp_types::{
     CodeAction, CodeActionKind, CodeActionOrCommand, CodeActionParams, DocumentChanges,
     DocumentFormattingParams, OneOf, OptionalVersionedTextDocumentIdentifier, PrepareRenameResponse,
@@ -15,10 +16,6 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
 use std::str::FromStr;
 use std::sync::Arc;
-
-/// So many files that are not open are looked at for uses of a definition, and no more text than this.
-const MOST_NEIGHBOURS: usize = 1000;
-const MOST_TEXT: usize = 16 << 20;
 
 impl Server {
     /// Analyses of the open texts of a folder, of files that lie beside a text or a definition it uses, and of those
@@ -45,20 +42,8 @@ impl Server {
         let in_workspace = root.as_ref().is_some_and(|root| self.workspace.contains(root));
         let below = if in_workspace { folder.scenes(MOST_NEIGHBOURS) } else { Vec::new() };
         let below = below.into_iter().filter(|path| !beside.contains(path));
-        let name = assets.text(path).map(|text| defined.span.text(&text).to_owned()).unwrap_or_default();
-        let mut room = MOST_TEXT;
-        for path in beside.iter().cloned().chain(below).take(MOST_NEIGHBOURS) {
-            if texts.contains_key(&path) {
-                continue;
-            }
-            let Ok(text) = assets.text(&path) else { continue };
-            let Some(left) = room.checked_sub(text.len()) else { break };
-            room = left;
-            // Whoever uses a definition of another file imports that file, and says its name.
-            if text.contains("import") && text.contains(&name) {
-                found.push(Arc::new(Analysis::new(&path, text.into(), &assets)));
-            }
-        }
+        let paths = beside.iter().cloned().chain(below).filter(|path| !texts.contains_key(path));
+        found.extend(hray_session::users(paths, defined, &assets));
         found
     }
 
@@ -184,41 +169,5 @@ impl Server {
             }));
         }
         Ok(found)
-    }
-}
-
-/// What of a text is replaced by what to make another of it; none where they are the same.
-fn difference<'n>(old: &str, new: &'n str) -> Option<(Span, &'n str)> {
-    if old == new {
-        return None;
-    }
-    let same = |(a, b): &(char, char)| a == b;
-    let before: usize = old.chars().zip(new.chars()).take_while(same).map(|(c, _)| c.len_utf8()).sum();
-    let (old_rest, new_rest) = (old.get(before..)?, new.get(before..)?);
-    let after: usize =
-        old_rest.chars().rev().zip(new_rest.chars().rev()).take_while(same).map(|(c, _)| c.len_utf8()).sum();
-    Some((Span::new(before, old.len() - after), new_rest.get(..new_rest.len() - after)?))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn differences_are_small_and_whole() {
-        for (old, new) in [
-            ("a b c", "a x c"),
-            ("é", "éé"),
-            ("", "a"),
-            ("a", ""),
-            ("aé", "aè"),
-            ("aaa", "aa"),
-            ("abab", "ab"),
-        ] {
-            let (span, text) = difference(old, new).unwrap();
-            assert_eq!(format!("{}{text}{}", &old[..span.start], &old[span.end..]), new);
-        }
-        assert_eq!(difference("a b c", "a x c"), Some((Span::new(2, 3), "x")));
-        assert_eq!(difference("a", "a"), None);
     }
 }

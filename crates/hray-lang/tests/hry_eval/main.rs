@@ -8,6 +8,7 @@ mod errors;
 mod library;
 mod limits;
 mod meshes;
+mod origins;
 mod scenes;
 mod textures;
 mod values;

@@ -168,6 +168,11 @@ impl Geometry {
         self.shapes.iter().any(|shape| matches!(shape, Prepared::Mesh(_)))
     }
 
+    /// Whether a leaf is a mesh.
+    pub(super) fn is_mesh(&self, leaf: usize) -> bool {
+        matches!(&self.shapes[leaf], Prepared::Mesh(_))
+    }
+
     /// Whether a leaf is a mesh with normals to shade with.
     pub(super) fn is_smooth(&self, leaf: usize) -> bool {
         matches!(&self.shapes[leaf], Prepared::Mesh(mesh) if mesh.is_smooth())

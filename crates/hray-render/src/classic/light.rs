@@ -169,9 +169,9 @@ fn light<S: Simd>(simd: S, group: &Group<'_>, hits: &Hits<S>, walk: &mut Walk, c
             Some(color) => color,
             None => *color.insert(diffuse_color(simd, group, hits)),
         };
-        let diffuse = intensity.scale(cosine).mul(color);
-        let lit = match highlight(simd, group, hits, to_light) {
-            Some(factor) => diffuse.add(intensity.scale(factor)),
+        let (diffuse, highlight) = scattered(simd, group, hits, [to_light, intensity], cosine, color);
+        let lit = match highlight {
+            Some(highlight) => diffuse.add(highlight),
             None => diffuse,
         };
         sum = sum.add(lit.zero_where(simd, dark));
@@ -180,6 +180,112 @@ fn light<S: Simd>(simd: S, group: &Group<'_>, hits: &Hits<S>, walk: &mut Walk, c
         None => sum,
         Some(glow) => sum.add(color_of(simd, group, hits, glow, GLOW)),
     }
+}
+
+/// What a surface of that colour makes of light that comes from `to_light`: what it scatters, and the highlight.
+#[inline(always)]
+#[allow(clippy::manual_map, reason = "see inside")]
+fn scattered<S: Simd>(
+    simd: S,
+    group: &Group<'_>,
+    hits: &Hits<S>,
+    [to_light, intensity]: [Vec3<S>; 2],
+    cosine: Lanes<S>,
+    color: Vec3<S>,
+) -> (Vec3<S>, Option<Vec3<S>>) {
+    let diffuse = intensity.scale(cosine).mul(color);
+    // No closures: they would not be compiled for the machine's vectors.
+    let highlight = match highlight(simd, group, hits, to_light) {
+        Some(factor) => Some(intensity.scale(factor)),
+        None => None,
+    };
+    (diffuse, highlight)
+}
+
+/// What the light of a hit is made of, were there no shadows.
+pub(super) struct Parts {
+    /// Where shadow rays start.
+    pub(super) start: DVec3,
+    /// The surface's own colour.
+    pub(super) base: Rgb,
+    /// What it gives off by itself.
+    pub(super) glow: Rgb,
+    /// In the order in which lights are summed.
+    pub(super) lights: Vec<Part>,
+}
+
+/// What a light gives, were there no shadows.
+pub(super) struct Part {
+    pub(super) to_light: DVec3,
+    pub(super) distance: f64,
+    /// Of the angle between the normal and the light.
+    pub(super) cosine: f64,
+    pub(super) is_outside_cone: bool,
+    pub(super) diffuse: Rgb,
+    pub(super) highlight: Option<Rgb>,
+}
+
+/// Takes apart the light of the first hit of a frame, which has been lit.
+#[inline(always)]
+pub(super) fn parts<S: Simd>(simd: S, scene: &Integrator, frame: &Frame) -> Parts {
+    let first = |v: Vec3<S>| [v.x[0], v.y[0], v.z[0]];
+    let black = || Parts { start: DVec3::ZERO, base: Rgb::BLACK, glow: Rgb::BLACK, lights: Vec::new() };
+    let Some(leaf) = frame.groups.first().map(|group| group.leaf) else { return black() };
+    let (material, fields) = (scene.material(leaf), &frame.fields.get());
+    let group = &Group { scene, material, fields };
+    let placed = scene.geometry.placement(leaf).is_some() && material.uses_noise();
+    let surface = Vec3::load(simd, frame.hit_point.get(), 0);
+    let object = if placed { Vec3::load(simd, frame.hit_object.get(), 0) } else { surface };
+    let mut point = surface;
+    if scene.exact {
+        let [x, y, z, clear, _] = frame.hit_side.get();
+        let clear = Lanes::<S>::from_slice(simd, &clear[..Lanes::<S>::LEN]);
+        point = point.add(Vec3::load(simd, [x, y, z], 0).scale(clear));
+    }
+    if scene.geometry.is_smooth(leaf) {
+        let [_, _, _, x, y, z] = frame.hit_smooth.get();
+        point = point.add(Vec3::load(simd, [x, y, z], 0));
+    }
+    let hits = &Hits {
+        point,
+        object,
+        normal: Vec3::load(simd, frame.hit_normal.get(), 0),
+        direction: Vec3::load(simd, frame.hit_direction.get(), 0),
+        place: 0,
+        lanes: 1,
+    };
+    let color = diffuse_color(simd, group, hits);
+    let mut parts = Parts { start: DVec3::from(first(point)), base: Rgb::from(first(color)), ..black() };
+    if let Some(glow) = material.glow() {
+        parts.glow = Rgb::from(first(color_of(simd, group, hits, glow, GLOW)));
+    }
+    for source in &scene.lights {
+        parts.lights.push(if let Light::Ambient { intensity } = *source {
+            let intensity = Vec3::splat(simd, intensity);
+            let all = if scene.exact { intensity.mul(color) } else { intensity };
+            Part {
+                to_light: DVec3::ZERO,
+                distance: 0.0,
+                cosine: 1.0,
+                is_outside_cone: false,
+                diffuse: Rgb::from(first(all)),
+                highlight: None,
+            }
+        } else {
+            let Toward { to_light, distance, intensity } = toward(simd, source, scene.exact, point);
+            let cosine = to_light.dot(hits.normal);
+            let (diffuse, highlight) = scattered(simd, group, hits, [to_light, intensity], cosine, color);
+            Part {
+                to_light: DVec3::from(first(to_light)),
+                distance: distance[0],
+                cosine: cosine[0],
+                is_outside_cone: matches!(source, Light::Spot { .. }) && first(intensity) == [0.0; 3],
+                diffuse: Rgb::from(first(diffuse)),
+                highlight: highlight.map(|lit| Rgb::from(first(lit))),
+            }
+        });
+    }
+    parts
 }
 
 #[inline(always)]

@@ -13,6 +13,7 @@
 mod accelerate;
 mod camera;
 mod evaluate;
+mod explain;
 mod frame;
 mod geometry;
 mod light;
@@ -28,7 +29,7 @@ mod texture;
 mod trace;
 mod uv;
 
-use crate::{Control, RayCounts};
+use crate::{Control, RayCounts, RayKind};
 use camera::View;
 use fearless_simd::{Level, dispatch};
 use frame::{Background, Frame, NOTHING, Phase, Uses};
@@ -40,6 +41,7 @@ use material::{Material, Materials};
 use plans::Plans;
 use solid::Walk;
 
+pub(crate) use explain::{Owners, Recorder};
 pub use geometry::MAX_SOLID_PARTS;
 pub use mesh_trees::MeshTrees;
 pub(crate) use geometry::TooManyParts;
@@ -87,6 +89,8 @@ pub(crate) struct Scratch {
     walk: Walk,
     functions: evaluate::Scratch,
     rays: RayCounts,
+    /// What is to be kept of the rays, where a pixel is explained.
+    recorder: Option<Recorder>,
 }
 
 impl Scratch {
@@ -97,6 +101,7 @@ impl Scratch {
             walk: Walk::default(),
             functions: evaluate::Scratch::new(),
             rays: RayCounts::default(),
+            recorder: None,
         }
     }
 
@@ -206,7 +211,7 @@ impl Integrator {
         if points.is_empty() {
             return Ok(());
         }
-        let Scratch { frames, keys, walk, functions, rays } = scratch;
+        let Scratch { frames, keys, walk, functions, rays, recorder } = scratch;
         if frames.is_empty() {
             frames.push(Frame::new());
         }
@@ -223,7 +228,7 @@ impl Integrator {
             let (upper, lower) = frames.split_at_mut(top + 1);
             let (frame, next) = (&mut upper[top], &mut lower[0]);
             if frame.phase == Phase::Trace {
-                dispatch!(self.level, simd => steps::intersect(simd, &self.geometry, frame, walk, control));
+                self.intersect(frame, walk, control);
                 if control.is_cancelled() {
                     return Err(Stopped);
                 }
@@ -234,6 +239,10 @@ impl Integrator {
                     self.evaluate_fields(frame, functions);
                 }
                 rays.shadow += dispatch!(self.level, simd => light::shade(simd, self, frame, walk, control));
+                if let Some(recorder) = recorder {
+                    recorder.lit(self, frame, [top, depth_left], walk, control);
+                    recorder.next_is(RayKind::Reflection);
+                }
                 frame.phase = Phase::AfterReflection;
                 if depth_left > 0 {
                     dispatch!(self.level, simd => steps::reflect(simd, self, frame, next));
@@ -246,6 +255,9 @@ impl Integrator {
             }
             if frame.phase == Phase::AfterReflection {
                 frame.phase = Phase::AfterRefraction;
+                if let Some(recorder) = recorder {
+                    recorder.next_is(RayKind::Transmission);
+                }
                 if depth_left > 0 {
                     dispatch!(self.level, simd => steps::refract(simd, self, frame, next));
                     if next.len > 0 {
@@ -256,6 +268,9 @@ impl Integrator {
                 }
             }
             dispatch!(self.level, simd => steps::finish(simd, frame));
+            if let Some(recorder) = recorder {
+                recorder.finished(frame);
+            }
             if top == 0 {
                 break;
             }
@@ -267,6 +282,11 @@ impl Integrator {
         let components = r.iter().zip(g).zip(b).take(points.len());
         colors.extend(components.map(|((&r, &g), &b)| Rgb::new(r, g, b)));
         Ok(())
+    }
+
+    /// The nearest hit of each ray of a frame.
+    fn intersect(&self, frame: &mut Frame, walk: &mut Walk, control: &Control) {
+        dispatch!(self.level, simd => steps::intersect(simd, &self.geometry, frame, walk, control));
     }
 
     /// Rays from the camera: `rayTracePt` of appendix A.2.

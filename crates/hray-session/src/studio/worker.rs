@@ -1,12 +1,12 @@
 //! The threads that evaluate and render.
 
 use super::film::{Film, hash_of};
-use super::{Outgoing, Send};
+use super::{Outgoing, Sink};
 use crate::frame::{Frame, Pixels, Tile};
-use crate::protocol::{Event, Refusal, answer, file_message, pixels_message};
+use crate::protocol::{Event, Refusal, answer, pixels_message};
 use crate::scene::Work;
 use hray::{Control, MeshTrees, Picture, Resolution, Tracer};
-use serde_json::json;
+use serde_json::Value;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
@@ -17,8 +17,8 @@ use std::time::{Duration, Instant};
 const GRACE: Duration = Duration::from_millis(70);
 /// How often it is told how far a picture is.
 const PROGRESS: Duration = Duration::from_millis(100);
-/// How many files are rendered at the same time.
-const MOST_FILES_AT_ONCE: usize = 2;
+/// How many files and explanations are made at the same time.
+const MOST_ASIDES: usize = 4;
 
 /// Something to evaluate, and perhaps to render.
 pub(super) struct Job {
@@ -28,21 +28,13 @@ pub(super) struct Job {
     pub(super) render: bool,
 }
 
-/// A picture to be made as a file.
-pub(super) struct FileJob {
-    pub(super) id: u64,
-    pub(super) work: Work,
-    pub(super) format: String,
-}
-
 /// What is to be done, and what is being done.
 #[derive(Default)]
 pub(super) struct Desk {
     state: Mutex<State>,
     changed: Condvar,
-    /// The files that are being rendered.
-    files: AtomicUsize,
-    closed: AtomicBool,
+    /// How many files and explanations are being made.
+    asides: AtomicUsize,
 }
 
 #[derive(Default)]
@@ -53,7 +45,7 @@ struct State {
     checks: Vec<Job>,
     running: Option<Running>,
     closed: bool,
-    /// What the file renders of this session stop by.
+    /// What these stop by.
     controls: Vec<(u64, Arc<Control>)>,
 }
 
@@ -106,7 +98,6 @@ impl Desk {
     pub(super) fn close(&self) {
         let mut state = self.lock();
         state.closed = true;
-        self.closed.store(true, Ordering::Relaxed);
         if let Some(running) = &state.running {
             running.stop();
         }
@@ -151,7 +142,9 @@ impl Desk {
                 left
             });
             state = match left {
-                Some(left) => self.changed.wait_timeout(state, left).unwrap_or_else(PoisonError::into_inner).0,
+                Some(left) => {
+                    self.changed.wait_timeout(state, left).unwrap_or_else(PoisonError::into_inner).0
+                }
                 None => self.changed.wait(state).unwrap_or_else(PoisonError::into_inner),
             };
         }
@@ -165,7 +158,7 @@ impl State {
 }
 
 /// Evaluates and renders until the desk is closed.
-pub(super) fn work(desk: &Desk, renderers: usize, send: &Send) {
+pub(super) fn work(desk: &Desk, renderers: usize, send: &Sink) {
     let mut meshes = MeshTrees::default();
     let mut number = 0;
     while let Some((job, running)) = desk.take() {
@@ -185,7 +178,7 @@ pub(super) fn work(desk: &Desk, renderers: usize, send: &Send) {
 struct Show<'a> {
     frame: u32,
     renderers: usize,
-    send: &'a Send,
+    send: &'a Sink,
     running: &'a Running,
 }
 
@@ -222,9 +215,12 @@ impl Show<'_> {
         let start = self.running.since;
         let all = frame.samples();
         let (done, rays) = (AtomicU64::new(0), AtomicU64::new(0));
-        let film = Mutex::new(Film::new(frame));
+        let film = Mutex::new(None);
         let last = frame.passes().len() - 1;
         for pass in 0..=last {
+            if pass == last {
+                *film.lock().unwrap_or_else(PoisonError::into_inner) = Film::new(frame);
+            }
             let samples = frame.passes().get(pass).map_or(1, |pass| u64::from(pass.samples.get()));
             let put = |pixels: Pixels| {
                 if pass == last
@@ -304,28 +300,34 @@ impl Drop for CountWhenDropped<'_> {
     }
 }
 
-/// Renders a picture as a file on a thread of its own, which answers.
-pub(super) fn render_file(job: FileJob, desk: Arc<Desk>, send: Send) -> Result<(), Refusal> {
-    if desk.files.fetch_add(1, Ordering::Relaxed) >= MOST_FILES_AT_ONCE {
-        desk.files.fetch_sub(1, Ordering::Relaxed);
-        let help = "wait until one of them is there";
-        return Err(Refusal::new("other files are being rendered already").with_help(help));
+/// What is answered with: a value, and perhaps a binary message after it.
+pub(super) type Made = Result<(Value, Option<Vec<u8>>), Refusal>;
+
+/// Works on an answer on a thread of its own, until it is there or the page is closed.
+pub(super) fn aside(
+    id: u64,
+    desk: Arc<Desk>,
+    send: Sink,
+    make: impl FnOnce(&Control) -> Made + Send + 'static,
+) -> Result<(), Refusal> {
+    if desk.asides.fetch_add(1, Ordering::Relaxed) >= MOST_ASIDES {
+        desk.asides.fetch_sub(1, Ordering::Relaxed);
+        let help = "wait until one of them is done";
+        return Err(Refusal::new("other pictures are being made already").with_help(help));
     }
     let control = Arc::new(Control::new());
-    desk.lock().controls.push((job.id, control.clone()));
+    desk.lock().controls.push((id, control.clone()));
     thread::spawn(move || {
-        let made = catch_unwind(AssertUnwindSafe(|| job.work.file(&job.format, &control)));
+        let made = catch_unwind(AssertUnwindSafe(|| make(&control)));
         let made = made.unwrap_or_else(|_| Err(Refusal::new("the engine made a mistake with this scene")));
-        desk.lock().controls.retain(|(id, _)| *id != job.id);
-        desk.files.fetch_sub(1, Ordering::Relaxed);
-        match made {
-            Err(refusal) => {
-                send(Outgoing::Text(answer(job.id, &Err(refusal))));
-            }
-            Ok(file) => {
-                send(Outgoing::Text(answer(job.id, &Ok(json!({ "name": file.name, "mime": file.mime })))));
-                send(Outgoing::Binary(file_message(job.id, &file.bytes)));
-            }
+        desk.lock().controls.retain(|(other, _)| *other != id);
+        desk.asides.fetch_sub(1, Ordering::Relaxed);
+        let (answered, binary) = match made {
+            Ok((value, binary)) => (Ok(value), binary),
+            Err(refusal) => (Err(refusal), None),
+        };
+        if send(Outgoing::Text(answer(id, &answered))) {
+            binary.into_iter().for_each(|bytes| drop(send(Outgoing::Binary(bytes))));
         }
     });
     Ok(())

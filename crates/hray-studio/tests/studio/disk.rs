@@ -18,7 +18,9 @@ fn what_another_editor_writes_is_told() {
     let event = page.event_named("disk");
     assert_eq!((&event["disk"], &event["text"]), (&json!(null), &json!(null)));
     fs::write(studio.path("new.hry"), BALL).unwrap();
-    page.event(|event| event["event"] == "files" && event["files"] == json!([{ "path": "new.hry", "kind": "scene" }]));
+    page.event(|event| {
+        event["event"] == "files" && event["files"] == json!([{ "path": "new.hry", "kind": "scene" }])
+    });
 }
 
 #[test]
@@ -47,7 +49,8 @@ fn two_pages_on_one_file_do_not_lose_a_text() {
     two.edit("a.hry", 1, "two = 2\n").unwrap();
     one.ask(json!({ "do": "save", "doc": "a.hry", "text": "one = 1\n", "disk": disk })).unwrap();
     assert_eq!(two.event_named("disk")["text"], "one = 1\n");
-    let refused = two.ask(json!({ "do": "save", "doc": "a.hry", "text": "two = 2\n", "disk": disk })).unwrap_err();
+    let refused =
+        two.ask(json!({ "do": "save", "doc": "a.hry", "text": "two = 2\n", "disk": disk })).unwrap_err();
     assert_eq!(refused["conflict"]["text"], "one = 1\n");
     assert_eq!(fs::read_to_string(studio.path("a.hry")).unwrap(), "one = 1\n");
 }

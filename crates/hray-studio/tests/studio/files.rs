@@ -6,7 +6,11 @@ use std::fs;
 
 #[test]
 fn only_files_in_the_folder_are_read() {
-    let studio = Studio::with(&[("a.hry", BALL), ("sub/b.hry", "gold = 1\n"), ("old.hry", "renderDescr ( resolution (4,3) ) 1 []")]);
+    let studio = Studio::with(&[
+        ("a.hry", BALL),
+        ("sub/b.hry", "gold = 1\n"),
+        ("old.hry", "renderDescr ( resolution (4,3) ) 1 []"),
+    ]);
     fs::write(studio.folder.path().join("secret.hry"), "secret = 1\n").unwrap();
     let mut page = studio.page();
     let hello = page.ask(json!({ "do": "hello" })).unwrap();
@@ -22,9 +26,21 @@ fn only_files_in_the_folder_are_read() {
     assert_eq!(opened["text"], "gold = 1\n");
     assert_eq!(opened["disk"].as_str().unwrap().len(), 64);
     let outside = studio.folder.path().join("secret.hry");
-    for path in ["../secret.hry", "sub/../../secret.hry", "/etc/hostname", outside.to_str().unwrap(), "", ".", "a\\b", "C:x"] {
+    for path in [
+        "../secret.hry",
+        "sub/../../secret.hry",
+        "/etc/hostname",
+        outside.to_str().unwrap(),
+        "",
+        ".",
+        "a\\b",
+        "C:x",
+    ] {
         let refused = page.ask(json!({ "do": "open", "path": path })).unwrap_err();
-        assert!(refused["message"].as_str().unwrap().contains("not a path in the folder"), "{path}: {refused}");
+        assert!(
+            refused["message"].as_str().unwrap().contains("not a path in the folder"),
+            "{path}: {refused}"
+        );
     }
     assert!(page.ask(json!({ "do": "open", "path": "none.hry" })).is_err());
     assert!(page.ask(json!({ "do": "open", "path": "sub" })).is_err());
@@ -68,10 +84,15 @@ fn nothing_is_written_but_the_scene_that_is_saved() {
     page.edit("a.hry", 1, &text).unwrap();
     page.view("a.hry");
     page.event_named("done");
-    page.ask(json!({ "do": "render-file", "doc": "a.hry", "version": 1, "time": 0, "format": "png" })).unwrap();
-    assert_eq!((studio.names(), fs::read_to_string(studio.path("a.hry")).unwrap()), (before.clone(), BALL.to_owned()));
+    page.ask(json!({ "do": "render-file", "doc": "a.hry", "version": 1, "time": 0, "format": "png" }))
+        .unwrap();
+    assert_eq!(
+        (studio.names(), fs::read_to_string(studio.path("a.hry")).unwrap()),
+        (before.clone(), BALL.to_owned())
+    );
 
-    let saved = page.ask(json!({ "do": "save", "doc": "a.hry", "text": text, "disk": opened["disk"] })).unwrap();
+    let saved =
+        page.ask(json!({ "do": "save", "doc": "a.hry", "text": text, "disk": opened["disk"] })).unwrap();
     assert_eq!((studio.names(), fs::read_to_string(studio.path("a.hry")).unwrap()), (before, text.clone()));
     assert_eq!(page.ask(json!({ "do": "open", "path": "a.hry" })).unwrap()["disk"], saved["disk"]);
 

@@ -21,7 +21,8 @@ fn other_hosts_and_other_origins_are_refused() {
     let (host, query) = parts(&studio.server);
     let port = host.rsplit_once(':').unwrap().1;
     let status = |head: &str| {
-        let answer = http(&studio.server, &format!("GET /alive?{query} HTTP/1.1\r\n{head}Connection: close\r\n\r\n"));
+        let answer =
+            http(&studio.server, &format!("GET /alive?{query} HTTP/1.1\r\n{head}Connection: close\r\n\r\n"));
         answer.split_whitespace().nth(1).unwrap_or("none").to_owned()
     };
     assert_eq!(status(&format!("Host: {host}\r\n")), "200");
@@ -57,7 +58,9 @@ fn a_page_needs_the_token() {
     assert_eq!(upgrade(&format!("?{query}"), &own), "101");
     assert_eq!(upgrade(&format!("?{query}"), "http://evil.example"), "403");
     let wrong = format!("?token={}", "0".repeat(32));
-    for query in ["", "?token=", "?token", &wrong, &format!("?{query}0"), &format!("?{}", &query[..query.len() - 1])] {
+    for query in
+        ["", "?token=", "?token", &wrong, &format!("?{query}0"), &format!("?{}", &query[..query.len() - 1])]
+    {
         assert_eq!(upgrade(query, &own), "403", "{query}");
     }
 }
@@ -66,7 +69,12 @@ fn a_page_needs_the_token() {
 fn a_page_can_tell_whether_it_is_the_same_studio() {
     let studio = Studio::with(&[]);
     let (host, query) = parts(&studio.server);
-    let alive = |query: &str| http(&studio.server, &format!("GET /alive{query} HTTP/1.1\r\nHost: {host}\r\nConnection: close\r\n\r\n"));
+    let alive = |query: &str| {
+        http(
+            &studio.server,
+            &format!("GET /alive{query} HTTP/1.1\r\nHost: {host}\r\nConnection: close\r\n\r\n"),
+        )
+    };
     assert!(alive(&format!("?{query}")).ends_with(r#"{"alive":true,"token":true}"#));
     assert!(alive("?token=other").ends_with(r#"{"alive":true,"token":false}"#));
 }
@@ -76,7 +84,11 @@ fn the_page_may_load_nothing_from_elsewhere() {
     let studio = Studio::with(&[]);
     let (host, _) = parts(&studio.server);
     let get = |method: &str, path: &str| {
-        http(&studio.server, &format!("{method} {path} HTTP/1.1\r\nHost: {host}\r\nConnection: close\r\n\r\n")).to_lowercase()
+        http(
+            &studio.server,
+            &format!("{method} {path} HTTP/1.1\r\nHost: {host}\r\nConnection: close\r\n\r\n"),
+        )
+        .to_lowercase()
     };
     let page = get("GET", "/");
     for header in [

@@ -184,8 +184,10 @@ impl Page {
     }
 
     pub(crate) fn view(&mut self, doc: &str) {
-        self.ask(json!({ "do": "view", "doc": doc, "time": 0, "width": null, "height": null, "overrides": {} }))
-            .unwrap();
+        self.ask(
+            json!({ "do": "view", "doc": doc, "time": 0, "width": null, "height": null, "overrides": {} }),
+        )
+        .unwrap();
     }
 
     pub(crate) fn close(mut self) {

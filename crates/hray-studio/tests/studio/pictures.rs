@@ -12,7 +12,8 @@ const CLASSIC: &str = "renderDescr ( resolution (133,70) ) 3 [
 /// Puts the tiles of a picture together as a page does; what it looks like after each pass, as red, green and blue.
 fn picture(page: &mut Page, frame: u64, [width, height]: [usize; 2]) -> Vec<u8> {
     let mut rgb = vec![0; 3 * width * height];
-    let number = |bytes: &[u8], at: usize| u32::from_le_bytes(bytes[4 * at..4 * at + 4].try_into().unwrap()) as usize;
+    let number =
+        |bytes: &[u8], at: usize| u32::from_le_bytes(bytes[4 * at..4 * at + 4].try_into().unwrap()) as usize;
     while let Some(message) = page.binary.pop_front() {
         if number(&message, 0) != 1 || number(&message, 1) as u64 != frame {
             continue;
@@ -93,7 +94,10 @@ fn errors_are_told_with_what_mends_them() {
     // Mended, it is shown.
     page.edit("é.hry", 8, &text.replace("spere", "sphere")).unwrap();
     let scene = page.event_named("scene");
-    assert_eq!((&scene["ok"], &scene["version"], &scene["summary"]["objects"]["total"]), (&json!(true), &json!(8), &json!(1)));
+    assert_eq!(
+        (&scene["ok"], &scene["version"], &scene["summary"]["objects"]["total"]),
+        (&json!(true), &json!(8), &json!(1))
+    );
     page.event_named("done");
 }
 
@@ -115,17 +119,25 @@ fn questions_about_a_text_are_answered() {
     let found = ask("complete", json!({ "at": at("radius") })).unwrap();
     assert!(found["items"].as_array().unwrap().iter().any(|item| item["label"] == "center"), "{found}");
     let place = ask("definition", json!({ "at": at("gold }") })).unwrap();
-    assert_eq!(place, json!({ "doc": "a.hry", "name": "a.hry", "text": null, "from": at("gold ="), "to": at("gold =") + 4 }));
+    assert_eq!(
+        place,
+        json!({ "doc": "a.hry", "name": "a.hry", "text": null, "from": at("gold ="), "to": at("gold =") + 4 })
+    );
     let library = ask("definition", json!({ "at": at("rotateY") })).unwrap();
     assert!(library["doc"].is_null() && library["text"].as_str().unwrap().len() > 100, "{library}");
     let colors = ask("colors", json!({})).unwrap();
     assert_eq!(colors, json!([{ "from": at("#ffcc"), "to": at("#ffcc") + 7, "color": [1.0, 0.8, 0.0] }]));
-    let ways = ask("present", json!({ "from": at("#ffcc"), "to": at("#ffcc") + 7, "color": [0.0, 0.0, 1.0] })).unwrap();
+    let ways =
+        ask("present", json!({ "from": at("#ffcc"), "to": at("#ffcc") + 7, "color": [0.0, 0.0, 1.0] }))
+            .unwrap();
     assert_eq!(ways[0], "#0000ff");
     let numbers = ask("numbers", json!({})).unwrap();
     assert_eq!(numbers.as_array().unwrap().len(), 2);
     assert_eq!((&numbers[0]["value"], &numbers[0]["step"]), (&json!(1.25), &json!(0.01)));
-    assert_eq!((&numbers[1]["value"], &numbers[1]["unit"], &numbers[1]["step"]), (&json!(30.0), &json!("deg"), &json!(1.0)));
+    assert_eq!(
+        (&numbers[1]["value"], &numbers[1]["unit"], &numbers[1]["step"]),
+        (&json!(30.0), &json!("deg"), &json!(1.0))
+    );
     assert_eq!(ask("references", json!({ "at": at("ball") })).unwrap().as_array().unwrap().len(), 3);
     let renamed = ask("rename", json!({ "at": at("ball"), "name": "orb" })).unwrap();
     assert_eq!(renamed["files"][0]["edits"].as_array().unwrap().len(), 3, "{renamed}");
@@ -152,4 +164,23 @@ fn time_and_size_are_those_of_the_view() {
     assert_eq!(page.event_named("frame")["width"], 48);
     page.ask(json!({ "do": "view", "doc": "a.hry", "time": 2, "width": 8, "height": 4 })).unwrap();
     assert_eq!(page.event(|event| event["event"] == "frame" && event["width"] != 48)["width"], 8);
+}
+
+#[test]
+fn a_pixel_leads_to_the_line_that_made_it() {
+    let studio = Studio::with(&[]);
+    let mut page = studio.page();
+    page.edit("a.hry", 1, BALL).unwrap();
+    let explain =
+        |x: u32, y: u32| json!({ "do": "explain", "doc": "a.hry", "version": 1, "x": x, "y": y, "time": 0 });
+    let found = page.ask(explain(32, 24)).unwrap();
+    let place = &found["object"]["place"];
+    assert_eq!((&found["object"]["kind"], &place["line"]), (&json!("sphere"), &json!(3)), "{found}");
+    let [from, to] = [&place["from"], &place["to"]].map(|at| at.as_u64().unwrap() as usize);
+    assert_eq!(&BALL[from..to], "sphere { center = (0, 1, 0) }");
+    assert!(page.ask(explain(64, 0)).is_err());
+    page.edit("a.hry", 2, "scene = ").unwrap();
+    let refused =
+        page.ask(json!({ "do": "explain", "doc": "a.hry", "version": 2, "x": 1, "y": 1 })).unwrap_err();
+    assert!(refused["message"].as_str().unwrap().contains("has errors"), "{refused}");
 }

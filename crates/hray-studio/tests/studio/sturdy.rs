@@ -32,10 +32,16 @@ fn a_picture_that_is_too_large_is_refused() {
     page.edit("a.hry", 1, &BALL.replace("(64, 48)", "(30000, 30000)")).unwrap();
     let failed = page.event_named("failed");
     assert!(failed["message"].as_str().unwrap().contains("too large to be shown here"), "{failed}");
-    let refused = page.ask(json!({ "do": "render-file", "doc": "a.hry", "version": 1, "time": 0, "format": "png" }));
+    let refused =
+        page.ask(json!({ "do": "render-file", "doc": "a.hry", "version": 1, "time": 0, "format": "png" }));
     assert!(refused.unwrap_err()["message"].as_str().unwrap().contains("too large"));
     // A scene that asks for too much is an error with a place.
-    page.edit("a.hry", 2, "scene = { size = (sum [ x * y * z | x <- [1 .. 9000], y <- [1 .. 9000], z <- [ 1 .. 9000] ], 8) }\n").unwrap();
+    page.edit(
+        "a.hry",
+        2,
+        "scene = { size = (sum [ x * y * z | x <- [1 .. 9000], y <- [1 .. 9000], z <- [ 1 .. 9000] ], 8) }\n",
+    )
+    .unwrap();
     let problems = page.event(|event| event["event"] == "problems" && event["version"] == 2);
     let code = problems["items"][0]["code"].as_str().unwrap();
     assert!(["list-too-long", "too-much-memory"].contains(&code), "{problems}");
@@ -51,7 +57,10 @@ fn a_hundred_edits_a_second_are_kept_up_with() {
     let start = Instant::now();
     for version in 1..=300 {
         page.send(json!({ "do": "edit", "doc": "a.hry", "version": version, "text": BALL.replace("1, 0)", &format!("1.{version:03}, 0)")) }));
-        std::thread::sleep(Duration::from_millis(10).saturating_sub(start.elapsed() - Duration::from_millis(10) * (version as u32 - 1)));
+        std::thread::sleep(
+            Duration::from_millis(10)
+                .saturating_sub(start.elapsed() - Duration::from_millis(10) * (version as u32 - 1)),
+        );
     }
     let sent = start.elapsed();
     page.event(|event| event["event"] == "scene" && event["version"] == 300);
@@ -66,7 +75,9 @@ fn messages_that_are_none_and_those_that_are_too_long() {
     let mut page = studio.page();
     page.send_raw("{".to_owned()).unwrap();
     assert!(page.event_named("unreadable")["message"].is_string());
-    assert!(page.ask(json!({ "do": "nothing" })).unwrap_err()["message"].as_str().unwrap().contains("nothing"));
+    assert!(
+        page.ask(json!({ "do": "nothing" })).unwrap_err()["message"].as_str().unwrap().contains("nothing")
+    );
     assert!(page.ask(json!({ "do": "edit", "doc": "a.hry" })).is_err());
     assert!(page.ask(json!({ "do": "hover", "doc": "a.hry", "version": 1, "at": -1 })).is_err());
     assert!(page.ask(json!({ "do": "hover", "doc": "none.hry", "version": 1, "at": 1 })).is_err());
@@ -123,7 +134,8 @@ fn a_studio_that_was_started_again_has_the_port_and_another_token() {
     assert_ne!(second.address(), old);
     assert!(Page::open(&second).ask(json!({ "do": "hello" })).is_ok());
     // A port that is taken is said to be.
-    let taken = Server::start(&Options { target: Some(folder.path().to_owned()), port: Some(port) }).unwrap_err();
+    let taken =
+        Server::start(&Options { target: Some(folder.path().to_owned()), port: Some(port) }).unwrap_err();
     assert!(taken.to_string().contains(&format!("the port {port} is not to be had")), "{taken}");
     let none = Server::start(&Options { target: Some(folder.path().join("none")), port: None }).unwrap_err();
     assert!(none.to_string().contains("no file and no folder"), "{none}");

@@ -63,6 +63,7 @@ impl Machine<'_> {
             self.stack.truncate(base);
             return Err(error);
         }
+        self.calls.push(span);
         let result = self.guarded(|machine| {
             let frame = Frame { base, group: Some(group) };
             for (i, parameter) in code.parameters.iter().enumerate() {
@@ -73,6 +74,7 @@ impl Machine<'_> {
             }
             machine.eval(&code.body, frame)
         });
+        self.calls.pop();
         self.leave(base);
         result.map_err(|mut error| {
             error.in_call(code.name.as_ref(), span);

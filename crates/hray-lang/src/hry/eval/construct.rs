@@ -4,7 +4,7 @@ use super::compile::{Compiler, internal};
 use super::failure::{Failure, Outcome};
 use super::machine::{Machine, depends_on_hit};
 use super::scalar::parts;
-use super::value::{Given, Kind, MaterialValue, RecordValue, Scalar, ShapeNode, Value};
+use super::value::{Given, Kind, LightValue, MaterialValue, RecordValue, Scalar, ShapeNode, Value};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::hry::library::{Constructor, FieldSpec, FieldType, Makes, Range};
 use crate::hry::program::listed;
@@ -304,7 +304,8 @@ impl<'m, 'a> Fields<'m, 'a> {
             }
             name => return Err(internal(self.span, &format!("a shape `{name}` that is not made")).into()),
         };
-        Machine::shape(ShapeNode::Leaf { shape, material }, 0, self.span)
+        let origin = self.machine.origin(self.span);
+        Machine::shape(ShapeNode::Leaf { shape, material, origin }, 0, self.span)
     }
 
     fn cuboid(&mut self, size: DVec3) -> Outcome<Shape> {
@@ -335,7 +336,8 @@ impl<'m, 'a> Fields<'m, 'a> {
             }
             name => return Err(internal(self.span, &format!("a light `{name}` that is not made")).into()),
         };
-        Ok(Value::Light(Arc::new(light)))
+        let origin = self.machine.origin(self.span);
+        Ok(Value::Light(Arc::new(LightValue { light, origin })))
     }
 
     fn same_place(&self, a: &str, b: &str) -> Box<Failure> {

@@ -5,6 +5,7 @@ use super::compile::{Compiler, Symbols, internal};
 use super::failure::{Failure, Outcome};
 use super::limits::{Limits, Meter};
 use super::mesh::Prepared;
+use super::origins::Places;
 use super::scalar::{assemble, parts, truth};
 use super::value::{
     Closure, ClosureGroup, FunctionKind, HitValue, Kind, RecordValue, Scalar, Symbol, TextValue, Value,
@@ -59,6 +60,10 @@ pub(super) struct Machine<'a> {
     /// Values of the defaults of constructors' fields.
     pub(super) defaults: BTreeMap<(&'static str, usize), Value>,
     pub(super) warnings: Vec<Diagnostic>,
+    /// The places that made objects and lights.
+    pub(super) places: Places,
+    /// The calls that are running, the innermost last; of a definition only those inside it.
+    pub(super) calls: Vec<Span>,
     /// The moment that is shown, in seconds.
     pub(super) time: f64,
 }
@@ -97,6 +102,8 @@ impl<'a> Machine<'a> {
             models: BTreeMap::new(),
             defaults: BTreeMap::new(),
             warnings: Vec::new(),
+            places: Places::default(),
+            calls: Vec::new(),
             time: 0.0,
         }
     }
@@ -106,6 +113,11 @@ impl<'a> Machine<'a> {
         let (file, line, column) = self.program.sources.location(span.start);
         let root = self.program.sources.files().first().is_some_and(|root| root.name == file);
         if root { format!("{line}:{column}") } else { format!("{file}:{line}:{column}") }
+    }
+
+    /// The number of a place that makes something now.
+    pub(super) fn origin(&mut self, span: Span) -> u32 {
+        self.places.number(span, &self.calls)
     }
 
     /// Counts a step.
@@ -152,9 +164,11 @@ impl<'a> Machine<'a> {
         // It does not depend on the hit, whoever needs it first.
         let graph = self.graph.take();
         let branches = std::mem::take(&mut self.branches);
+        let calls = std::mem::take(&mut self.calls);
         self.running.push((module, index));
         let result = self.evaluate_definition(module, index, span);
         self.running.pop();
+        self.calls = calls;
         self.branches = branches;
         self.graph = graph;
         let state = match &result {

@@ -129,12 +129,13 @@ impl Fields<'_, '_> {
         let whole = self.span;
         let machine = self.machine();
         let prepared = machine.model(&file.text, smooth, span)?;
+        let origin = machine.origin(whole);
         let mut shapes = Vec::with_capacity(prepared.parts.len());
         for part in &prepared.parts {
             machine.step(whole)?;
             let shape = Shape::Mesh(part.mesh.clone());
             let material = material.clone().or_else(|| part.material.clone());
-            let leaf = Machine::shape(ShapeNode::Leaf { shape, material }, 0, whole)?;
+            let leaf = Machine::shape(ShapeNode::Leaf { shape, material, origin }, 0, whole)?;
             shapes.push(match (&part.transform, &leaf) {
                 (Some(transform), Value::Shape(shape)) => {
                     let node = ShapeNode::Placed { transform: transform.clone(), shape: shape.clone() };
@@ -220,7 +221,8 @@ impl Fields<'_, '_> {
             mesh = mesh.with_uvs(uvs).map_err(|error| wrong_mesh(&error, span))?;
         }
         let shape = Shape::Mesh(with_normals(&Arc::new(mesh), smooth));
-        Machine::charged_shape(ShapeNode::Leaf { shape, material }, 0, Some(charge), whole)
+        let origin = machine.origin(whole);
+        Machine::charged_shape(ShapeNode::Leaf { shape, material, origin }, 0, Some(charge), whole)
     }
 
     fn items(&mut self, name: &str) -> Outcome<(Arc<ListValue>, Span)> {

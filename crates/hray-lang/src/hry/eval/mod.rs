@@ -19,6 +19,7 @@ mod machine;
 mod mesh;
 mod natives;
 mod order;
+mod origins;
 mod patterns;
 mod place;
 mod scalar;
@@ -27,4 +28,5 @@ mod texture;
 mod value;
 
 pub use limits::Limits;
+pub use origins::{Origin, Origins};
 pub use scene::{Evaluated, Evaluator, evaluate};

@@ -157,9 +157,9 @@ impl Machine<'_> {
                 self.text(text, span)
             }
             (N::Iterate, [max, until, step, start]) => self.iterate(max, until, step, start, span),
-            (N::Union, [a, b]) => Self::csg(CsgOperation::Union, a, b, span),
-            (N::Intersection, [a, b]) => Self::csg(CsgOperation::Intersection, a, b, span),
-            (N::Difference, [a, b]) => Self::csg(CsgOperation::Difference, a, b, span),
+            (N::Union, [a, b]) => self.csg(CsgOperation::Union, a, b, span),
+            (N::Intersection, [a, b]) => self.csg(CsgOperation::Intersection, a, b, span),
+            (N::Difference, [a, b]) => self.csg(CsgOperation::Difference, a, b, span),
             (N::Group, [Value::List(list)]) => {
                 let nesting = list.items.iter().map(|item| match item {
                     Value::Shape(shape) => shape.nesting,
@@ -436,7 +436,7 @@ impl Machine<'_> {
         }
     }
 
-    fn csg(operation: CsgOperation, a: &Value, b: &Value, span: Span) -> Outcome<Value> {
+    fn csg(&mut self, operation: CsgOperation, a: &Value, b: &Value, span: Span) -> Outcome<Value> {
         let (Value::Shape(a), Value::Shape(b)) = (a, b) else {
             return Err(internal(span, "a solid of something else than shapes").into());
         };
@@ -449,7 +449,9 @@ impl Machine<'_> {
             )));
         }
         let nesting = a.nesting.max(b.nesting) + 1;
-        Self::shape(ShapeNode::Csg { operation, operands: [a.clone(), b.clone()] }, nesting, span)
+        let origin = self.origin(span);
+        let operands = [a.clone(), b.clone()];
+        Self::shape(ShapeNode::Csg { operation, operands, origin }, nesting, span)
     }
 
     pub(super) fn shape(node: ShapeNode, nesting: u32, span: Span) -> Outcome<Value> {

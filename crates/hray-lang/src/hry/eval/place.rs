@@ -4,7 +4,9 @@ use super::compile::internal;
 use super::failure::{Failure, Outcome};
 use super::machine::{Machine, depends_on_hit};
 use super::scalar::parts;
-use super::value::{FunctionKind, Given, Kind, MaterialValue, RecordValue, Scalar, ShapeNode, Value};
+use super::value::{
+    FunctionKind, Given, Kind, LightValue, MaterialValue, RecordValue, Scalar, ShapeNode, Value,
+};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::hry::ast::{BinaryOperator, ExprKind};
 use crate::hry::library::Native;
@@ -174,7 +176,11 @@ impl Machine<'_> {
                 }
                 Ok(Value::Material(Arc::new(MaterialValue { fields, span: material.span })))
             }
-            Value::Light(light) => Ok(Value::Light(Arc::new(light_at(**light, transform)))),
+            Value::Light(value) => {
+                let LightValue { light, origin } = **value;
+                let light = light_at(light, transform);
+                Ok(Value::Light(Arc::new(LightValue { light, origin })))
+            }
             Value::Camera(camera) => match &**camera {
                 Camera::Perspective(c) => {
                     Ok(Value::Camera(Arc::new(Camera::Perspective(PerspectiveCamera {

@@ -5,16 +5,17 @@ use super::construct::Fields;
 use super::failure::{Failure, Outcome};
 use super::limits::Limits;
 use super::machine::Machine;
+use super::origins::{Flat, Origins};
 use super::texture::Compiled;
-use super::value::{Given, MaterialValue, ShapeNode, ShapeValue, Value};
+use super::value::{Given, LightValue, MaterialValue, ShapeNode, ShapeValue, Value};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::hry::assets::Assets;
 use crate::hry::library::{Constructor, constructor};
 use crate::hry::program::{Global, Program};
 use glam::DAffine3;
 use hray_core::{
-    Background, Csg, CsgOperation, Description, Field, Light, Material, Primitive, Resolution, Rgb, Scene,
-    Shape, Texture,
+    Background, Csg, CsgOperation, Description, Field, Material, Primitive, Resolution, Rgb, Scene, Shape,
+    Texture,
 };
 use std::collections::HashMap;
 use std::num::NonZeroU32;
@@ -29,6 +30,8 @@ const MOST_PRIMITIVES: usize = 100_000_000;
 pub struct Evaluated {
     /// The scene; none where there are errors.
     pub description: Option<Description>,
+    /// Where its objects and lights were made.
+    pub origins: Origins,
     /// Errors, and warnings about values.
     pub diagnostics: Vec<Diagnostic>,
     /// Whether `scene` is a function of the time.
@@ -74,12 +77,12 @@ impl<'a> Evaluator<'a> {
         let result = self.machine.scene();
         let mut diagnostics = std::mem::take(&mut self.machine.warnings);
         match result {
-            Ok((description, animated)) => {
-                Evaluated { description: Some(description), diagnostics, animated }
+            Ok((description, origins, animated)) => {
+                Evaluated { description: Some(description), origins, diagnostics, animated }
             }
             Err(failure) => {
                 diagnostics.push(failure.into_diagnostic(|span| self.machine.place(span)));
-                Evaluated { description: None, diagnostics, animated: false }
+                Evaluated { diagnostics, ..Evaluated::default() }
             }
         }
     }
@@ -93,7 +96,7 @@ struct Materials {
 }
 
 impl Machine<'_> {
-    fn scene(&mut self) -> Outcome<(Description, bool)> {
+    fn scene(&mut self) -> Outcome<(Description, Origins, bool)> {
         let module = self.program.root;
         let found = self.program.root().and_then(|root| root.scope.names.get("scene").copied());
         let index = match found {
@@ -119,8 +122,8 @@ impl Machine<'_> {
             constructor("scene").ok_or_else(|| internal(span, "a table without the scene"))?;
         let mut given = self.given(table, &record, span)?;
         self.place_fields(module, index, table, &mut given);
-        let description = self.describe(table, given, span)?;
-        Ok((description, animated))
+        let (description, origins) = self.describe(table, given, span)?;
+        Ok((description, origins, animated))
     }
 
     /// Where the scene is written out as a record, its fields have places of their own.
@@ -148,7 +151,7 @@ impl Machine<'_> {
         table: &'static Constructor,
         given: Vec<Option<Given>>,
         span: Span,
-    ) -> Outcome<Description> {
+    ) -> Outcome<(Description, Origins)> {
         let time = self.time;
         let background = {
             let place = table.field("background").map(|(place, _)| place);
@@ -186,7 +189,7 @@ impl Machine<'_> {
             Some(background) => background,
             None => Background::Uniform(fields.color("background")?),
         };
-        let lights = match fields.value("lights")?.0 {
+        let lights: Vec<LightValue> = match fields.value("lights")?.0 {
             Value::List(list) => list
                 .items
                 .iter()
@@ -194,7 +197,7 @@ impl Machine<'_> {
                     Value::Light(light) => Ok(**light),
                     other => Err(wrong(other).into()),
                 })
-                .collect::<Outcome<Vec<Light>>>()?,
+                .collect::<Outcome<_>>()?,
             other => return Err(wrong(&other).into()),
         };
         let objects = match fields.value("objects")?.0 {
@@ -202,18 +205,22 @@ impl Machine<'_> {
             other => return Err(wrong(&other).into()),
         };
         drop(fields);
-        let mut primitives = Vec::with_capacity(objects.items.len());
+        let mut flat = Flat::default();
+        flat.primitives.reserve(objects.items.len());
+        flat.origins.reserve(objects.items.len());
         let mut materials = Materials::default();
         for item in &objects.items {
             match item {
-                Value::Shape(shape) => {
-                    self.flatten(shape, None, None, &mut materials, &mut primitives, span)?
-                }
+                Value::Shape(shape) => self.flatten(shape, None, None, &mut materials, &mut flat, span)?,
                 other => return Err(wrong(other).into()),
             }
         }
+        let Flat { primitives, origins, parts } = flat;
+        let light_origins = lights.iter().map(|light| light.origin).collect();
+        let origins = Origins::new(&self.places, origins, parts, light_origins);
+        let lights = lights.iter().map(|light| light.light).collect();
         let scene = Scene { camera, background, primitives, lights, time };
-        Ok(Description { resolution, max_depth, samples, integrator, encoding, scene })
+        Ok((Description { resolution, max_depth, samples, integrator, encoding, scene }, origins))
     }
 
     /// Adds the primitives that a shape consists of.
@@ -223,13 +230,13 @@ impl Machine<'_> {
         transform: Option<&Arc<DAffine3>>,
         material: Option<&Arc<MaterialValue>>,
         materials: &mut Materials,
-        into: &mut Vec<Primitive>,
+        into: &mut Flat,
         span: Span,
     ) -> Outcome<()> {
         self.step(span)?;
         match &shape.node {
-            ShapeNode::Leaf { shape, material: own } => {
-                if into.len() >= MOST_PRIMITIVES {
+            ShapeNode::Leaf { shape, material: own, origin } => {
+                if into.primitives.len() >= MOST_PRIMITIVES {
                     let message = format!("the scene has more than {MOST_PRIMITIVES} objects");
                     return Err(Failure::new(Diagnostic::error(
                         "too-many-objects",
@@ -239,26 +246,29 @@ impl Machine<'_> {
                     )));
                 }
                 let material = self.material_of(own.as_ref().or(material), materials)?;
-                into.push(Primitive { shape: shape.clone(), transform: transform.cloned(), material });
+                let primitive = Primitive { shape: shape.clone(), transform: transform.cloned(), material };
+                into.push(primitive, *origin, Vec::new());
             }
-            ShapeNode::Csg { operation, operands: [left, right] } => {
+            ShapeNode::Csg { operation, operands: [left, right], origin } => {
                 let left = self.operand(left, material, materials, span)?;
                 let right = self.operand(right, material, materials, span)?;
-                let shape = match (left, right) {
-                    (Some(left), Some(right)) => {
-                        Shape::Csg(Arc::new(Csg { operation: *operation, operands: [left, right] }))
+                let (shape, parts) = match (left, right) {
+                    (Some((left, mut parts)), Some((right, more))) => {
+                        parts.extend(more);
+                        let csg = Csg { operation: *operation, operands: [left, right] };
+                        (Shape::Csg(Arc::new(csg)), parts)
                     }
                     // With nothing, a union or a difference leaves what there is.
                     (Some(only), None) if *operation != CsgOperation::Intersection => {
-                        return Self::add_operand(only, transform, into);
+                        return Self::add_operand(only, *origin, transform, into);
                     }
                     (None, Some(only)) if *operation == CsgOperation::Union => {
-                        return Self::add_operand(only, transform, into);
+                        return Self::add_operand(only, *origin, transform, into);
                     }
                     _ => return Ok(()),
                 };
                 let material = self.material_of(None, materials)?;
-                into.push(Primitive { shape, transform: transform.cloned(), material });
+                into.push(Primitive { shape, transform: transform.cloned(), material }, *origin, parts);
             }
             ShapeNode::Group(list) => {
                 for item in &list.items {
@@ -280,29 +290,38 @@ impl Machine<'_> {
     }
 
     fn add_operand(
-        operand: Primitive,
+        (operand, parts): (Primitive, Vec<u32>),
+        origin: u32,
         transform: Option<&Arc<DAffine3>>,
-        into: &mut Vec<Primitive>,
+        into: &mut Flat,
     ) -> Outcome<()> {
         let whole = match (transform, &operand.transform) {
             (Some(outer), Some(inner)) => Some(Arc::new(**outer * **inner)),
             (Some(outer), None) => Some(outer.clone()),
             (None, inner) => inner.clone(),
         };
-        into.push(Primitive { transform: whole, ..operand });
+        let operand = Primitive { transform: whole, ..operand };
+        match (&operand.shape, &parts[..]) {
+            (Shape::Csg(_), _) => into.push(operand, origin, parts),
+            (_, [only]) => into.push(operand, *only, Vec::new()),
+            _ => into.push(operand, origin, Vec::new()),
+        }
         Ok(())
     }
 
-    /// A shape as one primitive: the union of what it consists of. None where that is nothing.
+    /// A shape as one primitive, the union of what it consists of, and the places that made its parts. None where that is
+    /// nothing.
     fn operand(
         &mut self,
         shape: &ShapeValue,
         material: Option<&Arc<MaterialValue>>,
         materials: &mut Materials,
         span: Span,
-    ) -> Outcome<Option<Primitive>> {
-        let mut all = Vec::new();
-        self.flatten(shape, None, material, materials, &mut all, span)?;
+    ) -> Outcome<Option<(Primitive, Vec<u32>)>> {
+        let mut flat = Flat::default();
+        self.flatten(shape, None, material, materials, &mut flat, span)?;
+        let leaves = flat.leaves();
+        let mut all = flat.primitives;
         // A balanced tree, so that many do not nest deeply; the order stays.
         while all.len() > 1 {
             let mut joined = Vec::with_capacity(all.len().div_ceil(2));
@@ -319,7 +338,7 @@ impl Machine<'_> {
             }
             all = joined;
         }
-        Ok(all.pop())
+        Ok(all.pop().map(|whole| (whole, leaves)))
     }
 
     fn material_of(

@@ -36,7 +36,7 @@ pub(super) enum Value {
     Hit(Arc<HitValue>),
     Shape(Arc<ShapeValue>),
     Material(Arc<MaterialValue>),
-    Light(Arc<Light>),
+    Light(Arc<LightValue>),
     Camera(Arc<Camera>),
     Image(Arc<Image>),
     Integrator(Integrator),
@@ -167,11 +167,33 @@ pub(super) struct ShapeValue {
 
 #[derive(Debug)]
 pub(super) enum ShapeNode {
-    Leaf { shape: Shape, material: Option<Arc<MaterialValue>> },
-    Csg { operation: CsgOperation, operands: [Arc<ShapeValue>; 2] },
+    /// `origin` is the number of the place that made it, as in `Csg`.
+    Leaf {
+        shape: Shape,
+        material: Option<Arc<MaterialValue>>,
+        origin: u32,
+    },
+    Csg {
+        operation: CsgOperation,
+        operands: [Arc<ShapeValue>; 2],
+        origin: u32,
+    },
     Group(Arc<ListValue>),
-    Placed { transform: Arc<DAffine3>, shape: Arc<ShapeValue> },
-    Painted { material: Arc<MaterialValue>, shape: Arc<ShapeValue> },
+    Placed {
+        transform: Arc<DAffine3>,
+        shape: Arc<ShapeValue>,
+    },
+    Painted {
+        material: Arc<MaterialValue>,
+        shape: Arc<ShapeValue>,
+    },
+}
+
+/// A light, and the number of the place that made it.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct LightValue {
+    pub(super) light: Light,
+    pub(super) origin: u32,
 }
 
 /// A material: the fields that were given, by their places in its constructor.
