@@ -432,7 +432,9 @@ test("the view is told as a command line that gives this picture", async () => {
 test("a scene that cannot be rendered says so, and the next one is", async () => {
   await openFile(page, "ball.hry");
   await type(page, BALL.replace("(200, 150)", "(30000, 30000)"));
-  await page.waitForFunction(() => !document.querySelector(".picture-notice").hidden || document.querySelector(".count.error"), null, { timeout: 30_000 });
+  await page.getByText(/^Shown at \d+ % of its size/).waitFor();
+  await type(page, BALL.replace("(200, 150)", "(40000, 40000)"));
+  await page.locator(".count.error").waitFor();
   await type(page, BALL);
   await settled(page);
   await type(page, BALL.replace("ball = ", "loop n = loop (n + 1)\nball = ").replace("radius = 1.0", "radius = loop 1"));

@@ -186,7 +186,7 @@ export class PicturePane {
         this.element.dataset["state"] = "failed";
         this.timeline.setPlaying(false);
         this.waiting = false;
-        this.setNotice(event.message);
+        this.setNotice(event.message, "failed");
         this.events.state({ is: "failed", message: event.message });
         break;
       default:
@@ -225,10 +225,10 @@ export class PicturePane {
     this.element.dataset["state"] = "stopped";
   }
 
-  private setNotice(text: string | null): void {
+  private setNotice(text: string | null, kind: "note" | "failed" = "note"): void {
     this.notice.hidden = text === null;
     this.notice.textContent = text ?? "";
-    this.notice.dataset["kind"] = this.element.dataset["state"] === "failed" ? "failed" : "note";
+    this.notice.dataset["kind"] = kind;
   }
 
   private seek(time: number): void {
