@@ -116,6 +116,7 @@ export class Studio implements Host {
     work.append(this.editorPane, splitter(work, "--left", "x", "Width of the text"), this.pane.element);
     fill(root, this.bar, this.banners, work, splitter(this.dock, "--dock", "y", "Height of the problems"), this.dock, this.words.toasts, this.words.live);
     this.showTab("problems", false);
+    this.openDock(false, false);
     this.setProblems([]);
     this.listen();
   }
