@@ -70,7 +70,12 @@ export class Studio implements Host {
     this.fileButton = h("button", { type: "button", class: "file-button", onclick: () => void this.documents.choose(false) });
     this.fileButton.title = `Open (${keyName("Mod-O")})`;
     this.saveButton = iconButton("save", "Save", () => void this.documents.save(), { key: keyName("Mod-S"), text: "Save" });
-    this.timeBox.addEventListener("click", () => this.send("stop", {}));
+    this.timeBox.addEventListener("click", () => {
+      this.send("stop", {});
+      this.pane.stopped();
+      fill(this.timeBox, "stopped");
+      this.timeBox.classList.remove("busy");
+    });
     const playground = engine.kind === "worker";
     this.bar = h(
       "header",
@@ -82,7 +87,7 @@ export class Studio implements Host {
       h(
         "nav",
         { class: "bar-end", "aria-label": "Studio" },
-        playground ? iconButton("link", "Copy a link to this scene", () => void this.share(), { text: "Share" }) : null,
+        playground ? iconButton("link", "Share: copy a link to this scene", () => void this.share(), { text: "Share" }) : null,
         iconButton("format", "Lay the text out", () => void this.format(), { key: keyName("Shift-Alt-F") }),
         playground ? null : iconButton("command", "This view as a command line", () => void this.showCommand()),
         iconButton("theme", "Light, dark, or as the system", () => this.switchTheme()),
@@ -111,6 +116,7 @@ export class Studio implements Host {
     work.append(this.editorPane, splitter(work, "--left", "x", "Width of the text"), this.pane.element);
     fill(root, this.bar, this.banners, work, splitter(this.dock, "--dock", "y", "Height of the problems"), this.dock, this.words.toasts, this.words.live);
     this.showTab("problems", false);
+    this.openDock(false, false);
     this.setProblems([]);
     this.listen();
   }
@@ -309,14 +315,12 @@ export class Studio implements Host {
     box.disabled = state.is !== "rendering";
     switch (state.is) {
       case "rendering":
-        fill(box, state.seconds > 0.3 ? `${Math.round(state.done * 100)} % · ${seconds(state.seconds)}` : "…");
+        fill(box, state.seconds > 0.3 ? `${Math.round(state.done * 100)} % · ${seconds(state.seconds)}` : "…", h("span", { class: "unseen" }, " rendered. Press to stop."));
         box.title = "Rendering. Press to stop.";
-        box.setAttribute("aria-label", "Rendering. Press to stop.");
         break;
       case "complete":
-        fill(box, seconds(state.seconds));
+        fill(box, h("span", { class: "unseen" }, "Render time "), seconds(state.seconds));
         box.title = `Rendered in ${seconds(state.seconds)}, ${state.rays.toLocaleString()} rays`;
-        box.setAttribute("aria-label", `Render time ${seconds(state.seconds)}`);
         if (state.seconds > 2) this.words.announce(`The picture is complete, after ${seconds(state.seconds)}.`);
         break;
       case "failed":
@@ -337,11 +341,11 @@ export class Studio implements Host {
     fill(
       this.fileButton,
       icon(icons.open) as unknown as Node,
+      h("span", { class: "unseen" }, "Open. Now: "),
       h("span", { class: "file-name" }, slash > 0 ? h("span", { class: "quiet" }, current.name.slice(0, slash)) : null, current.name.slice(slash)),
       dirty ? h("span", { class: "unsaved", title: "Not saved yet; kept in this browser until it is" }, "not saved") : null,
       icon(icons.down) as unknown as Node,
     );
-    this.fileButton.setAttribute("aria-label", `Open. Now: ${current.name}${dirty ? ", not saved" : ""}`);
     this.saveButton.disabled = !dirty && !current.untitled;
     this.editorPane.dataset["version"] = String(current.version);
     document.title = `${dirty ? "• " : ""}${current.name.slice(slash)} — hray studio`;
@@ -507,7 +511,7 @@ export class Studio implements Host {
       button,
       [
         { label: "Copy to the clipboard", run: () => void this.copyPicture() },
-        ...formats.map((format) => ({ label: `Save as ${format.name}`, hint: `.${format.extension}`, run: () => void this.savePicture(format.name) })),
+        ...formats.map((format) => ({ label: `Save as ${format.name.toUpperCase()}`, hint: `.${format.extension}`, run: () => void this.savePicture(format.name) })),
       ],
       "Save or copy the picture",
     );

@@ -58,7 +58,8 @@ export class Documents {
     const tab = await claimTab();
     this.drafts = new Drafts(tab, (why) => this.studio.banner("drafts", `The browser does not keep unsaved text (${why}). Save often.`));
     if (await this.openShared()) return;
-    const before = sessionStorage.getItem("hray:doc");
+    const before = sessionStorage.getItem("hray:root") === this.root ? sessionStorage.getItem("hray:doc") : null;
+    sessionStorage.setItem("hray:root", this.root);
     if (before) {
       const mine = (await this.drafts.all(this.root)).find((draft) => draft.tab === tab && draft.doc === before);
       if (before.startsWith("untitled-")) {
@@ -69,7 +70,7 @@ export class Documents {
       } else if (await this.open(before)) return;
     }
     if (hello.start && (await this.open(hello.start))) return;
-    this.empty();
+    await this.empty();
     // Where someone comes for the first time, or to a folder, there is a choice to make; the scene behind it is alive.
     const waiting = await this.orphans();
     if (this.studio.engine.kind === "socket" || waiting.length > 0) void this.choose(true);
@@ -206,12 +207,12 @@ export class Documents {
   }
 
   /** A new scene that already shows something. */
-  empty(): void {
-    void this.fresh(STARTER);
+  empty(): Promise<void> {
+    return this.fresh(STARTER);
   }
 
   private async fresh(text: string): Promise<void> {
-    const name = this.current.name === "" ? "untitled-1.hry" : await this.untitledName();
+    const name = await this.untitledName();
     this.show({ name, untitled: true, disk: null, saved: text, conflict: null }, text);
   }
 
@@ -260,7 +261,7 @@ export class Documents {
         drafts: await this.orphans(),
         open: (path) => void this.open(path),
         example: (example) => void this.example(example.name),
-        empty: () => this.empty(),
+        empty: () => void this.empty(),
         draft: (draft) => void this.adopt(draft),
         forget: (draft) => this.drafts?.drop(draft.root, draft.doc, draft.tab),
       },

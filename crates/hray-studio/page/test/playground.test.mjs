@@ -133,7 +133,7 @@ test("what was typed is found again after a reload", { skip }, async () => {
   const mine = `${await text(page)}-- mine\n`;
   await type(page, mine);
   await page.reload();
-  await page.waitForSelector("html[data-ready]");
+  await page.waitForFunction(() => document.documentElement.dataset.ready);
   await page.waitForFunction((wanted) => window.hray.editor.text === wanted, mine);
   await settled(page, 120_000);
 });

@@ -69,7 +69,7 @@ export async function open(context, address) {
     if (message.type() === "error" && !/WebSocket|ERR_CONNECTION|Failed to load resource/.test(message.text())) page.wrong.push(message.text());
   });
   await page.goto(address);
-  await page.waitForSelector("html[data-ready]");
+  await page.waitForFunction(() => document.documentElement.dataset.ready);
   return page;
 }
 

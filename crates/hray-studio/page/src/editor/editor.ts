@@ -48,7 +48,7 @@ export function readOnlyView(parent: HTMLElement, text: string, span: { from: nu
         appearance,
         highlightActiveLine(),
         EditorState.readOnly.of(true),
-        EditorView.contentAttributes.of({ "aria-label": label, "aria-readonly": "true" }),
+        EditorView.contentAttributes.of({ "aria-label": label, "aria-readonly": "true", tabindex: "0" }),
         keymap.of([...defaultKeymap, ...searchKeymap]),
         search({ top: true }),
       ],
@@ -126,7 +126,7 @@ export class Editor {
       numberTools,
       colours,
       this.writable.of(EditorState.readOnly.of(false)),
-      EditorView.contentAttributes.of({ "aria-label": "Scene text", spellcheck: "false", autocapitalize: "off", autocorrect: "off" }),
+      EditorView.contentAttributes.of({ "aria-label": "Scene text", tabindex: "0", spellcheck: "false", autocapitalize: "off", autocorrect: "off" }),
       EditorView.updateListener.of((update) => {
         if (update.docChanged) events.changed(update.state.doc.toString(), !this.replacing);
         if (update.selectionSet || update.docChanged) events.moved(update.state.selection.main.head);

@@ -69,7 +69,7 @@ export class PicturePane {
       seek: () => this.events.view(),
       play: (on) => this.play(on),
     });
-    this.zoomLabel = h("button", { type: "button", class: "button zoom-label", title: "Fit the picture to the pane (0)", "aria-label": "Fit the picture to the pane", onclick: () => this.picture.fit() }, "Fit");
+    this.zoomLabel = h("button", { type: "button", class: "button zoom-label", title: "Fit the picture to the pane (0)", onclick: () => this.picture.fit() }, "Fit");
     this.compareButton = iconButton("compare", "Compare with the picture before", () => this.nextComparison(), { text: "Compare", key: "C", class: "compare" });
     this.compareButton.setAttribute("aria-pressed", "false");
     this.pinButton = iconButton("pin", "Keep comparing with this earlier picture", () => this.pin(), { class: "pin" });
@@ -186,7 +186,7 @@ export class PicturePane {
         this.element.dataset["state"] = "failed";
         this.timeline.setPlaying(false);
         this.waiting = false;
-        this.setNotice(event.message);
+        this.setNotice(event.message, "failed");
         this.events.state({ is: "failed", message: event.message });
         break;
       default:
@@ -218,10 +218,17 @@ export class PicturePane {
     this.events.state({ is: "rendering", done, seconds });
   }
 
-  private setNotice(text: string | null): void {
+  /** The render was ended by hand; what there is of the picture stays. */
+  stopped(): void {
+    this.timeline.setPlaying(false);
+    this.progress.hidden = true;
+    this.element.dataset["state"] = "stopped";
+  }
+
+  private setNotice(text: string | null, kind: "note" | "failed" = "note"): void {
     this.notice.hidden = text === null;
     this.notice.textContent = text ?? "";
-    this.notice.dataset["kind"] = this.element.dataset["state"] === "failed" ? "failed" : "note";
+    this.notice.dataset["kind"] = kind;
   }
 
   private seek(time: number): void {
@@ -280,6 +287,7 @@ export class PicturePane {
     const label = this.compareButton.querySelector(".button-text");
     if (label) label.textContent = how === "none" ? "Compare" : how === "wipe" ? "Wipe" : "Difference";
     this.compareButton.setAttribute("aria-pressed", String(how !== "none"));
+    this.compareButton.setAttribute("aria-label", `Compare with the picture before${how === "none" ? "" : `: ${how}`}`);
     this.pinButton.hidden = how === "none";
     this.pinButton.setAttribute("aria-pressed", String(this.pinned));
     if (how !== "none" && !this.kept) this.readout.textContent = "There is no earlier picture yet: change something.";

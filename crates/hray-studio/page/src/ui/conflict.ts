@@ -41,8 +41,8 @@ export function openConflict(doc: string, mine: string, disk: string | null): Pr
     );
     const merge = new MergeView({
       parent,
-      a: { doc: mine, extensions: [shown, EditorView.contentAttributes.of({ "aria-label": "The text here" })] },
-      b: { doc: disk ?? "", extensions: [shown, EditorView.contentAttributes.of({ "aria-label": "The text on disk" })] },
+      a: { doc: mine, extensions: [shown, EditorView.contentAttributes.of({ "aria-label": "The text here", tabindex: "0" })] },
+      b: { doc: disk ?? "", extensions: [shown, EditorView.contentAttributes.of({ "aria-label": "The text on disk", tabindex: "0" })] },
       collapseUnchanged: { margin: 3, minSize: 6 },
       gutter: true,
     });
