@@ -40,6 +40,8 @@ export class Studio implements Host {
   private peek: EditorView | null = null;
   private spotsTimer = 0;
   private edited = false;
+  /** The last picture that came to its end. */
+  private complete: RenderState = { is: "idle" };
   private explaining = 0;
   private bannerActions = new Map<string, HTMLElement>();
 
@@ -246,7 +248,8 @@ export class Studio implements Host {
       case "scene":
         if (event.doc !== current.name || event.version !== current.version) return;
         if (event.summary) this.showSummary(event.summary);
-        this.editorPane.classList.toggle("behind", !event.ok);
+        // The render of what was there before the error has ended; the time shown is that of the picture shown.
+        if (!event.ok) this.showRender(this.complete);
         this.pane.scene(event.ok, event.summary, event.animated, event.module ?? null);
         this.editorPane.dataset["known"] = String(event.version);
         break;
@@ -310,6 +313,7 @@ export class Studio implements Host {
   }
 
   private showRender(state: RenderState): void {
+    if (state.is === "complete" || state.is === "idle") this.complete = state;
     const box = this.timeBox;
     box.classList.toggle("busy", state.is === "rendering");
     box.disabled = state.is !== "rendering";

@@ -27,7 +27,7 @@ for (const [scheme, name] of [["light", "studio.png"], ["dark", "studio-dark.png
 }
 
 // The animation.
-const size = { width: 960, height: 540 };
+const size = { width: 1120, height: 600 };
 const context = await browser.newContext({ viewport: size, colorScheme: "light" });
 const page = await open(context, studio.address);
 await page.locator('.card[data-example=""]').click();
@@ -58,10 +58,10 @@ await settled(page, 300_000);
 await shoot(900);
 await place("radius = 1.0");
 await page.keyboard.press("ArrowLeft");
-for (let step = 0; step < 8; step++) {
+for (let step = 0; step < 4; step++) {
   await page.keyboard.press("Alt+ArrowDown");
   await settled(page, 300_000);
-  await shoot(step === 7 ? 900 : 130);
+  await shoot(step === 3 ? 900 : 130);
 }
 await page.locator(".cm-swatch").first().click();
 await page.getByLabel("Hue").waitFor();

@@ -506,6 +506,7 @@ for (const scheme of ["light", "dark"]) {
     await page.locator(".rays").first().waitFor();
     await serious(page, "with a pixel explained");
     await type(page, BALL.replace("radius", "radios"));
+    await page.locator("#tab-problems").click();
     await page.locator(".rendered").waitFor();
     await serious(page, "with an error");
     await page.keyboard.press("Control+o");
