@@ -66,6 +66,23 @@ mistakes! {
     image_missing: "scene = { objects = [sphere { material = classic { color = imageMap (image \"moon.jpg\") } }] }";
 }
 
+/// A sphere around the light and around where rays start is a room.
+#[test]
+fn a_room_is_no_mistake() {
+    for camera in [
+        "perspective { from = (0, 0, 1) }",
+        "orthographic { from = (0, 0, 1) }",
+        "window { eye = (0, 0, 9), size = (4, 3) }",
+    ] {
+        let text = format!(
+            "scene = {{ camera = {camera}, lights = [point {{ position = (0, 2, 0) }}], objects = [sphere {{ radius = 20 }}] }}"
+        );
+        let (_, evaluated) = run_with(&text, &Files::default(), 0.0, &Limits::default());
+        assert!(evaluated.description.is_some());
+        assert_eq!(evaluated.diagnostics, [], "{camera}");
+    }
+}
+
 #[test]
 fn warnings_about_values_do_not_stop_the_scene() {
     let text = "share = 3 / 2\nscene = { objects = [sphere { material = classic { reflection = share } }] }";

@@ -2,10 +2,10 @@
 
 use super::machine::Machine;
 use crate::diagnostic::{Diagnostic, Span};
-use glam::DVec3;
-use hray_core::{Camera, Description, Field, Light, MIN_DEPTH, Material, Primitive, Scene, Shape};
+use glam::{DAffine3, DVec3};
+use hray_core::{Camera, Description, Field, Light, MIN_DEPTH, Material, Primitive, Scene, Shape, Sphere};
 
-/// So many lights and objects are compared with each other at most.
+/// So many lights are compared with the objects at most.
 const MOST_LIGHTS: usize = 64;
 
 /// Where the parts of a scene stand: its fields, or the scene where they are left out.
@@ -70,51 +70,61 @@ impl Machine<'_> {
                 ),
             );
         }
+        self.lint_what_is_shut_in(scene, places);
+    }
+
+    /// Warns of lights and of a camera inside of spheres. A sphere around both is a room, and well meant.
+    fn lint_what_is_shut_in(&mut self, scene: &Scene, places: Places) {
         let eye = match scene.camera {
-            Camera::Perspective(camera) => Some(camera.from),
-            Camera::Window(_) | Camera::Orthographic(_) => None,
+            Camera::Perspective(camera) => camera.from,
+            Camera::Orthographic(camera) => camera.from,
+            // Rays start on the window, which is centred on the origin.
+            Camera::Window(_) => DVec3::ZERO,
         };
-        for (number, light) in scene.lights.iter().enumerate().take(MOST_LIGHTS) {
-            let (Light::Point { position, .. } | Light::Spot { position, .. }) = *light else { continue };
-            let shuts_in = |primitive: &Primitive| {
-                holds(primitive, position) && eye.is_none_or(|eye| !holds(primitive, eye))
-            };
-            if scene.primitives.iter().any(shuts_in) {
-                let message = format!("light {} of the scene is inside a sphere", number + 1);
-                let label = "it reaches nothing outside of that sphere";
-                self.warn(
-                    Diagnostic::warning("light-inside-sphere", message, places.lights, label)
-                        .with_secondary(places.objects, "the sphere is one of these")
-                        .with_note("transparent objects cast shadows like all others")
-                        .with_help("for a lamp that can be seen, put the light beside the sphere, or give the sphere `glow`"),
-                );
+        let lights: Vec<(usize, DVec3)> = scene
+            .lights
+            .iter()
+            .enumerate()
+            .filter_map(|(index, light)| match light {
+                Light::Point { position, .. } | Light::Spot { position, .. } => Some((index, *position)),
+                Light::Ambient { .. } | Light::Directional { .. } => None,
+            })
+            .take(MOST_LIGHTS)
+            .collect();
+        let is_ambient = scene.lights.iter().any(|light| matches!(light, Light::Ambient { .. }));
+        let mut is_shut_in = vec![false; lights.len()];
+        let mut is_dark = false;
+        for primitive in &scene.primitives {
+            let Some(inside) = Inside::new(primitive) else { continue };
+            if !inside.holds(eye) {
+                for (is_shut_in, (_, light)) in is_shut_in.iter_mut().zip(&lights) {
+                    *is_shut_in |= inside.holds(*light);
+                }
+            } else if !is_ambient {
+                let material = &primitive.material;
+                let is_lit = material.glow.is_some() || lights.iter().any(|(_, light)| inside.holds(*light));
+                is_dark |= material.transmission.is_zero() && !is_lit;
             }
         }
-        let Some(eye) = eye else { return };
-        let is_lit = |primitive: &Primitive| {
-            scene.lights.iter().any(|light| match light {
-                Light::Point { position, .. } | Light::Spot { position, .. } => holds(primitive, *position),
-                Light::Ambient { .. } => true,
-                Light::Directional { .. } => false,
-            })
-        };
-        let shuts_in = |primitive: &Primitive| {
-            holds(primitive, eye)
-                && primitive.material.transmission.is_zero()
-                && primitive.material.glow.is_none()
-                && !is_lit(primitive)
-        };
-        if scene.primitives.iter().any(shuts_in) {
-            let message = "the camera is inside a sphere, where no light is";
+        for ((index, _), _) in lights.iter().zip(&is_shut_in).filter(|(_, is_shut_in)| **is_shut_in) {
+            let message = format!("light {} of the scene is inside a sphere", index + 1);
+            let label = "it reaches nothing outside of that sphere";
             self.warn(
-                Diagnostic::warning(
-                    "camera-inside-sphere",
-                    message,
-                    places.camera,
-                    "the picture will be dark",
-                )
-                .with_secondary(places.objects, "the sphere is one of these")
-                .with_help("move the camera further away: `from` is where it is, in scene units"),
+                Diagnostic::warning("light-inside-sphere", message, places.lights, label)
+                    .with_secondary(places.objects, "the sphere is one of these")
+                    .with_note("transparent objects cast shadows like all others")
+                    .with_help(
+                        "for a lamp that can be seen, put the light beside the sphere, or give the sphere `glow`",
+                    ),
+            );
+        }
+        if is_dark && matches!(scene.camera, Camera::Perspective(_)) {
+            let message = "the camera is inside a sphere, where no light is";
+            let label = "the picture will be dark";
+            self.warn(
+                Diagnostic::warning("camera-inside-sphere", message, places.camera, label)
+                    .with_secondary(places.objects, "the sphere is one of these")
+                    .with_help("move the camera further away: `from` is where it is, in scene units"),
             );
         }
     }
@@ -127,12 +137,21 @@ fn has_own_light(scene: &Scene) -> bool {
     })
 }
 
-/// Whether a point is inside a sphere.
-fn holds(primitive: &Primitive, point: DVec3) -> bool {
-    let Shape::Sphere(sphere) = primitive.shape else { return false };
-    let inside = match &primitive.transform {
-        Some(transform) => transform.inverse().transform_point3(point),
-        None => point,
-    };
-    inside.distance_squared(sphere.center) < sphere.radius * sphere.radius
+/// The inside of a sphere, wherever it is placed.
+struct Inside {
+    sphere: Sphere,
+    to_object: Option<DAffine3>,
+}
+
+impl Inside {
+    fn new(primitive: &Primitive) -> Option<Self> {
+        let Shape::Sphere(sphere) = primitive.shape else { return None };
+        let to_object = primitive.transform.as_ref().map(|transform| transform.inverse());
+        Some(Self { sphere, to_object })
+    }
+
+    fn holds(&self, point: DVec3) -> bool {
+        let point = self.to_object.map_or(point, |to_object| to_object.transform_point3(point));
+        point.distance_squared(self.sphere.center) < self.sphere.radius * self.sphere.radius
+    }
 }

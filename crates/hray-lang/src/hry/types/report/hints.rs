@@ -389,7 +389,6 @@ impl<'p> Infer<'p> {
             (H::Color, H::Number) if self.is_called(why, "mix") => {
                 error.with_help("`mix` takes two colours or two numbers: as colours, 0 is `black` and 1 is `white`")
             }
-            (H::Number, H::Hit) if matches!(why, Some(Why::Argument { .. })) => error,
             (H::Color, H::Number) => error.with_help("a colour has the numbers `c.r`, `c.g` and `c.b`"),
             (H::Number, H::Text) => self.shown(error, expr, span, why),
             (H::Text, H::Image) => self.suggest(
