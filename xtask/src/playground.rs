@@ -30,7 +30,8 @@ pub fn run(out: Option<&str>) -> Result<()> {
     let bindgen = bindgen(&cargo, &target)?;
     let engine = out.join("engine");
     fs::create_dir_all(&engine).map_err(|error| format!("cannot make {}: {error}", engine.display()))?;
-    let glue = ["--target", "web", "--no-typescript", "--out-name", "hray_playground", "--out-dir"];
+    let glue = ["--target", "web", "--no-typescript", "--remove-name-section", "--remove-producers-section"];
+    let glue = [&glue[..], &["--out-name", "hray_playground", "--out-dir"]].concat();
     command(Command::new(bindgen).args(glue).arg(&engine).arg(&module))?;
     optimise(&engine.join("hray_playground_bg.wasm"))?;
     copy(&page, &out)?;
@@ -53,8 +54,11 @@ fn bindgen(cargo: &str, target: &Path) -> Result<PathBuf> {
             return Ok(program.into());
         }
     }
+    // It runs for a second or two: what counts is that it compiles in little time.
+    let quick = [("OPT_LEVEL", "0"), ("LTO", "off"), ("CODEGEN_UNITS", "256"), ("DEBUG", "0")];
+    let quick = quick.map(|(key, value)| (format!("CARGO_PROFILE_RELEASE_{key}"), value));
     let install = ["install", "wasm-bindgen-cli", "--version", version, "--force", "--root"];
-    command(Command::new(cargo).args(install).arg(&tools).env_remove("CARGO_TARGET_DIR"))?;
+    command(Command::new(cargo).args(install).arg(&tools).env_remove("CARGO_TARGET_DIR").envs(quick))?;
     Ok(own)
 }
 

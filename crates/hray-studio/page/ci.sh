@@ -26,7 +26,7 @@ diff -rq "$fresh/dist" ../dist || { echo "run \`npm run build\` in crates/hray-s
 step "units"
 npm run --silent unit
 
-# `ci.sh page` ends here; without it the suite in a browser follows, which needs chromium and the playground.
+# `ci.sh page` ends here, without a browser.
 if [ "${1:-}" = page ]; then
     exit 0
 fi

@@ -69,7 +69,7 @@ export class Studio implements Host {
     });
     this.documents = new Documents(this);
 
-    this.fileButton = h("button", { type: "button", class: "file-button", onclick: () => void this.documents.choose(false) });
+    this.fileButton = h("button", { type: "button", class: "file-button", onclick: () => this.documents.choose(false) });
     this.fileButton.title = `Open (${keyName("Mod-O")})`;
     this.saveButton = iconButton("save", "Save", () => void this.documents.save(), { key: keyName("Mod-S"), text: "Save" });
     this.timeBox.addEventListener("click", () => {
@@ -503,10 +503,9 @@ export class Studio implements Host {
     if (!name || name === old) return;
     const answer = await this.ask("rename", { at, name });
     if (!answer) return;
-    const { current } = this.documents;
-    this.editor.edit(answer.files.find((file) => file.doc === current.name)?.edits ?? []);
-    const others = answer.files.map((file) => file.doc).filter((doc) => doc !== current.name);
-    if (others.length > 0) this.say(`Renamed here. ${others.join(", ")} ${others.length > 1 ? "use" : "uses"} the name as well, and is to be changed there.`);
+    const here = answer.files.find((file) => file.doc === this.documents.current.name)?.edits ?? [];
+    const others = answer.files.filter((file) => file.doc !== this.documents.current.name);
+    if (others.length === 0 || (await this.documents.changeOthers(others, old))) this.editor.edit(here);
   }
 
   private pictureMenu(button: HTMLElement): void {
@@ -611,7 +610,7 @@ export class Studio implements Host {
       if (mod && key === "s") {
         if (!dialogOpen) void (event.shiftKey ? this.documents.saveAs() : this.documents.save());
       } else if (dialogOpen) return;
-      else if (mod && key === "o" && !event.shiftKey) void this.documents.choose(false);
+      else if (mod && key === "o" && !event.shiftKey) this.documents.choose(false);
       else if (event.key === "F1") openKeys(this.hello?.version ?? "");
       else if (event.key === "F2") void this.rename();
       else if (event.key === "F6") this.nextPart(event.shiftKey ? -1 : 1);

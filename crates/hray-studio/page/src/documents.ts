@@ -5,11 +5,11 @@ import type { Studio } from "./app";
 import { claimTab, Drafts, liveTabs, type Draft } from "./drafts";
 import { download } from "./dom";
 import { EngineError, explainError } from "./engine/engine";
-import type { Conflict, Hello } from "./engine/protocol";
+import type { Conflict, Hello, TextEdit } from "./engine/protocol";
 import { decodeShare } from "./share";
 import { STARTER } from "./starter";
 import { openConflict } from "./ui/conflict";
-import { ask } from "./ui/dialog";
+import { ask, confirm } from "./ui/dialog";
 import { openChooser } from "./ui/open";
 
 interface Document {
@@ -73,7 +73,7 @@ export class Documents {
     await this.empty();
     // Where someone comes for the first time, or to a folder, there is a choice to make; the scene behind it is alive.
     const waiting = await this.orphans();
-    if (this.studio.engine.kind === "socket" || waiting.length > 0) void this.choose(true);
+    if (this.studio.engine.kind === "socket" || waiting.length > 0) this.choose(true);
   }
 
   /** The engine has come back: it knows nothing. */
@@ -248,9 +248,11 @@ export class Documents {
   }
 
   /** The dialog of what there is to open. */
-  async choose(welcome: boolean): Promise<void> {
+  choose(welcome: boolean): void {
     const hello = this.studio.hello;
     if (!hello) return;
+    // The key may come before the welcome is there.
+    if (document.querySelector("dialog[open]")) return;
     this.keep();
     const folder = hello.canSave ? hello.root.replace(/^.*[\\/](?=[^\\/])/, "") : null;
     openChooser(
@@ -258,7 +260,7 @@ export class Documents {
         folder,
         files: hello.files.map((file) => (typeof file === "string" ? { path: file, kind: "scene" } : file)),
         examples: hello.examples,
-        drafts: await this.orphans(),
+        drafts: this.orphans(),
         open: (path) => void this.open(path),
         example: (example) => void this.example(example.name),
         empty: () => void this.empty(),
@@ -390,6 +392,38 @@ export class Documents {
     }
     this.current.untitled = false;
     this.saved(text, disk);
+  }
+
+  /** Makes the same change in other files, once the user has agreed; false where nothing was changed. */
+  async changeOthers(files: { doc: string; edits: TextEdit[] }[], old: string): Promise<boolean> {
+    const { studio, drafts } = this;
+    if (!drafts) return false;
+    const unsaved = new Set((await drafts.all(this.root)).map((draft) => draft.doc));
+    const held = files.find((file) => unsaved.has(file.doc));
+    if (held) {
+      studio.say(`${held.doc} uses ${old} as well, and has a text that is not saved yet. Save that one first.`);
+      return false;
+    }
+    const places = files.map(({ doc, edits }) => `${doc} (${edits.length === 1 ? "one place" : `${edits.length} places`})`);
+    if (!(await confirm("Other files use it as well", `${places.join(", ")}: changed too, and saved at once.`, "Rename everywhere"))) return false;
+    const changed: string[] = [];
+    try {
+      for (const { doc, edits } of files) {
+        const { text, disk } = await studio.engine.request("open", { path: doc });
+        let result = text;
+        for (const { from, to, text: by } of [...edits].sort((one, other) => other.from - one.from)) {
+          if (text.slice(from, to) !== old) throw new Error(`${doc} has just changed.`);
+          result = result.slice(0, from) + by + result.slice(to);
+        }
+        await studio.engine.request("save", { doc, text: result, disk });
+        studio.send("close", { doc });
+        changed.push(doc);
+      }
+    } catch (error) {
+      studio.say(`${changed.length > 0 ? `Renamed in ${changed.join(", ")}, but then: ` : ""}${explainError(error)}`);
+      return changed.length > 0;
+    }
+    return true;
   }
 
   // --- The disk ---

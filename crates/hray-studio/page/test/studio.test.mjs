@@ -340,6 +340,31 @@ test("completion, documentation, definitions, layout", async () => {
   await page.waitForFunction((wanted) => window.hray.editor.text === wanted, BALL);
 });
 
+test("a name is renamed wherever it is used, in other files after asking", async () => {
+  const paths = ["paints.hry", "other.hry"].map((name) => join(scenes.path, name));
+  writeFileSync(paths[0], "rust = #d9532c\n");
+  const using = BALL.replace("#d9532c", "paints.rust");
+  writeFileSync(paths[1], `import "paints.hry" as paints\n\n${using}`);
+  await openFile(page, "paints.hry");
+  await known(page);
+  const rename = async (button) => {
+    await page.evaluate(() => window.hray.editor.select(2, 2));
+    await page.keyboard.press("F2");
+    await page.locator("#ask-field").fill("ochre");
+    await page.keyboard.press("Enter");
+    const dialog = page.getByRole("dialog", { name: "Other files use it as well" });
+    await dialog.getByText("other.hry (one place)").waitFor();
+    await dialog.getByRole("button", { name: button }).click();
+    await dialog.waitFor({ state: "detached" });
+  };
+  await rename("Cancel");
+  assert.equal(await text(page), "rust = #d9532c\n");
+  assert.ok(readFileSync(paths[1], "utf8").includes("paints.rust"));
+  await rename("Rename everywhere");
+  await page.waitForFunction(() => window.hray.editor.text === "ochre = #d9532c\n");
+  assert.equal(readFileSync(paths[1], "utf8"), `import "paints.hry" as paints\n\n${using.replace("rust", "ochre")}`);
+});
+
 test("the library is looked at, and not changed", async () => {
   await openFile(page, "ball.hry");
   await type(page, BALL.replace("#204060", "sky"));

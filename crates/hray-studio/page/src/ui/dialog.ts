@@ -65,6 +65,21 @@ export function ask(title: string, label: string, value: string, action: string,
   });
 }
 
+/** Asks whether to do something. */
+export function confirm(title: string, text: string, action: string): Promise<boolean> {
+  return new Promise((resolve) => {
+    let agreed = false;
+    const dialog = openDialog(title, { class: "narrow", closed: () => resolve(agreed) });
+    const yes = () => {
+      agreed = true;
+      dialog.close();
+    };
+    const button = h("button", { type: "button", class: "primary", onclick: yes }, action);
+    dialog.body.append(h("p", {}, text), h("div", { class: "actions" }, h("button", { type: "button", class: "plain", onclick: dialog.close }, "Cancel"), button));
+    button.focus();
+  });
+}
+
 export interface MenuItem {
   label: string;
   hint?: string;

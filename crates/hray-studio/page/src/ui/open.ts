@@ -10,7 +10,8 @@ export interface OpenChoices {
   folder: string | null;
   files: FileEntry[];
   examples: ExampleEntry[];
-  drafts: Draft[];
+  /** They take a moment to find, and what is typed meanwhile belongs to the dialog already. */
+  drafts: Promise<Draft[]>;
   open(path: string): void;
   example(example: ExampleEntry): void;
   empty(): void;
@@ -52,9 +53,10 @@ export function openChooser(choices: OpenChoices, welcome: boolean): void {
   const content = h("div", { class: "chooser-content" });
   dialog.body.append(h("div", { class: "chooser-search" }, input), content);
 
+  let unsaved: Draft[] = [];
   const draw = () => {
     const typed = input.value;
-    const drafts = choices.drafts.filter((draft) => fits(draft.doc, typed) !== null);
+    const drafts = unsaved.filter((draft) => fits(draft.doc, typed) !== null);
     const files = choices.files
       .filter((file) => file.kind !== "other")
       .map((file) => ({ file, fit: fits(file.path, typed) }))
@@ -80,7 +82,7 @@ export function openChooser(choices: OpenChoices, welcome: boolean): void {
                     "aria-label": `Throw away the unsaved text of ${draft.doc}`,
                     onclick: () => {
                       choices.forget(draft);
-                      choices.drafts = choices.drafts.filter((one) => one !== draft);
+                      unsaved = unsaved.filter((one) => one !== draft);
                       draw();
                       input.focus();
                     },
@@ -135,6 +137,10 @@ export function openChooser(choices: OpenChoices, welcome: boolean): void {
   });
   draw();
   input.focus();
+  void choices.drafts.then((found) => {
+    unsaved = found;
+    if (found.length > 0) draw();
+  });
 }
 
 function section(title: string, body: HTMLElement): HTMLElement {
