@@ -12,7 +12,7 @@ use std::sync::Arc;
 use wasm_bindgen::prelude::wasm_bindgen;
 
 /// How much an evaluation may take here, where nothing can stop it but the end of its worker: some seconds, and a part of the
-/// four GiB that there are at most. Calls inside calls are on the stack that the module is linked with.
+/// four GiB that there are at most.
 const LIMITS: Limits =
     Limits { steps: 50_000_000, depth: 2000, list: 2_000_000, memory: 1 << 30, nodes: 200_000 };
 
@@ -35,7 +35,7 @@ impl std::fmt::Debug for Engine {
 
 impl Default for Engine {
     fn default() -> Self {
-        Self::new(1)
+        Self::new(1, LIMITS.depth)
     }
 }
 
@@ -49,16 +49,20 @@ struct Shown {
 #[wasm_bindgen]
 impl Engine {
     /// An engine with the examples and nothing else; `cores` is how many workers there are, as the page is told.
+    ///
+    /// Calls inside calls of a scene may go `depth` deep, and at most 2000. They are on the browser's own stack, whose size
+    /// nobody says; where it ends, the browser throws a `RangeError`, after which this engine is of no more use, and another
+    /// one with a smaller `depth` can tell which call it was.
     #[wasm_bindgen(constructor)]
     #[must_use]
-    pub fn new(cores: usize) -> Self {
+    pub fn new(cores: usize, depth: u32) -> Self {
         let files = Arc::new(MemoryFiles::default());
         for (path, text) in hray_session::companions() {
             // Their names are paths.
             let _ = files.put(&path, Some(text.as_bytes().to_vec()));
         }
         let about = About { start: None, examples: hray_session::examples(|_| true), cores };
-        let session = Session::new(files.clone(), Arc::new(about), LIMITS);
+        let session = Session::new(files.clone(), Arc::new(about), Limits { depth: depth.min(LIMITS.depth), ..LIMITS });
         let (meshes, tracer, control) = (MeshTrees::default(), Tracer::new(), Control::new());
         Self { files, session, meshes, tracer, control, shown: None }
     }

@@ -22,7 +22,7 @@ fn show(engine: &mut Engine, number: u32, view: &Value) -> Value {
 
 #[test]
 fn engines_that_share_the_tiles_make_the_picture_of_one() {
-    let mut engines = [Engine::new(2), Engine::new(2)];
+    let mut engines = [Engine::new(2, 2000), Engine::new(2, 2000)];
     let example = ask(&mut engines[0], json!({ "do": "example", "name": "still-life" })).unwrap();
     let view = json!({ "doc": "a.hry", "time": 0.0, "width": 90, "height": 70 });
     let mut told = Vec::new();
@@ -50,7 +50,7 @@ fn engines_that_share_the_tiles_make_the_picture_of_one() {
 
 #[test]
 fn what_is_imported_is_what_the_page_brought() {
-    let mut engine = Engine::new(1);
+    let mut engine = Engine::new(1, 2000);
     edit(&mut engine, "import \"x/part.hry\" (wide)\nscene = { size = (wide, 8) }\n");
     let view = json!({ "doc": "a.hry" });
     assert_eq!(show(&mut engine, 1, &view)["events"][1]["ok"], false);
@@ -62,7 +62,7 @@ fn what_is_imported_is_what_the_page_brought() {
 
 #[test]
 fn a_file_is_what_is_rendered() {
-    let mut engine = Engine::new(1);
+    let mut engine = Engine::new(1, 2000);
     edit(&mut engine, "scene = { size = (5, 4), background = #ff0000 }\n");
     let request = json!({ "id": 9, "do": "render-file", "doc": "a.hry", "version": 1, "format": "ppm" });
     assert_eq!(engine.request(&request.to_string()), "");
@@ -75,7 +75,7 @@ fn a_file_is_what_is_rendered() {
 
 #[test]
 fn a_scene_that_never_ends_ends() {
-    let mut engine = Engine::new(1);
+    let mut engine = Engine::new(1, 2000);
     edit(&mut engine, "scene = { size = (8 + sum [ 0 * x | x <- [1 .. 9000], y <- [1 .. 9000] ], 8) }\n");
     let told = show(&mut engine, 1, &json!({ "doc": "a.hry" }));
     let code = told["events"][0]["items"][0]["code"].as_str().unwrap();

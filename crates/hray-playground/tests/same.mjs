@@ -19,7 +19,7 @@ let wrong = 0;
 for (const scene of scenes) {
   const doc = basename(scene);
   const text = readFileSync(scene, "utf8");
-  const engines = [new Engine(2), new Engine(2)];
+  const engines = [new Engine(2, 2000), new Engine(2, 2000)];
   const start = performance.now();
   const told = engines.map((one) => {
     one.request(JSON.stringify({ id: 1, do: "edit", doc, version: 1, text }));

@@ -147,6 +147,20 @@ test("a scene that never ends is ended, and the next one is shown", { skip }, as
   await settled(page, 120_000);
 });
 
+test("calls that go too deep are explained, as deep as they go is up to the browser", { skip }, async () => {
+  await settled(page, 120_000);
+  const before = await text(page);
+  const deep = (depth) => `deep n = if n == 0 then 1 else deep (n - 1) * 1\n${before.replace("radius = 1.0", `radius = deep ${depth}`)}`;
+  for (let turn = 0; turn < 2; turn++) {
+    await type(page, deep(100_000));
+    await page.locator(".count.error").waitFor();
+    await page.locator("#tab-problems").click();
+    await page.locator(".rendered").getByText("calls go deeper than").waitFor();
+    await type(page, deep(400));
+    await settled(page, 120_000);
+  }
+});
+
 test("no serious finding of accessibility", { skip }, async () => {
   await settled(page, 120_000);
   await page.evaluate(axe);

@@ -33,6 +33,8 @@ export async function serve(target, ...more) {
   return {
     address: address.trim(),
     port: new URL(address.trim()).port,
+    /** Lets it neither run nor end, or run again. */
+    freeze: (still) => child.kill(still ? "SIGSTOP" : "SIGCONT"),
     stop: () =>
       new Promise((resolve) => {
         if (child.exitCode !== null || child.signalCode !== null) return resolve();

@@ -482,6 +482,58 @@ test("a hundred edits a second: the picture is the last one's", async () => {
   assert.equal(await shownHash(page), await commandLine(join(scenes.path, "deeper/last.hry")));
 });
 
+test("a laptop that slept: what was typed and what changed on disk meanwhile is there", async () => {
+  await openFile(page, "ball.hry");
+  await settled(page);
+  const session = await context.newCDPSession(page);
+  // The server stands still while the page does not.
+  studio.freeze(true);
+  const changed = BALL.replace("#d9532c", "#44cc88");
+  await type(page, changed);
+  await page.waitForTimeout(1500);
+  studio.freeze(false);
+  await settled(page);
+  await page.keyboard.press("Control+s");
+  await page.getByText("Saved ball.hry.").first().waitFor();
+  // Now both.
+  await session.send("Page.setWebLifecycleState", { state: "frozen" });
+  studio.freeze(true);
+  writeFileSync(join(scenes.path, "ball.hry"), BALL);
+  await new Promise((resolve) => setTimeout(resolve, 1500));
+  studio.freeze(false);
+  await session.send("Page.setWebLifecycleState", { state: "active" });
+  await page.waitForFunction((wanted) => window.hray.editor.text === wanted, BALL, { timeout: 15_000 });
+  await settled(page);
+});
+
+test("memory does not grow with edits", async () => {
+  await openFile(page, "ball.hry");
+  await settled(page);
+  const session = await context.newCDPSession(page);
+  const turns = Number(process.env.HRAY_EDITS ?? 2000);
+  const edits = (count) =>
+    page.evaluate(async (many) => {
+      for (let turn = 0; turn < many; turn++) {
+        const { text } = window.hray.editor;
+        const from = text.indexOf("radius = ") + 9;
+        window.hray.editor.edit([{ from, to: from + 3, text: (0.5 + (turn % 10) / 20).toFixed(1) }]);
+        await new Promise((resolve) => setTimeout(resolve, 3));
+      }
+    }, count);
+  const used = async () => {
+    await settled(page);
+    await session.send("HeapProfiler.collectGarbage");
+    return (await session.send("Runtime.getHeapUsage")).usedSize / 1048576;
+  };
+  await edits(500);
+  const before = await used();
+  await edits(turns);
+  const after = await used();
+  const nodes = await page.evaluate(() => document.querySelectorAll("*").length);
+  console.log(`# ${before.toFixed(1)} MiB before ${turns} edits, ${after.toFixed(1)} after; ${nodes} elements`);
+  assert.ok(after - before < 4, `${before} to ${after} MiB`);
+});
+
 test("the first pixels follow a key in a gallery scene, and how soon is told", async () => {
   await openFile(page, "glass.hry");
   await settled(page, 120_000);

@@ -12,7 +12,7 @@ interface WasmEngine {
 
 interface Glue {
   default(start: { module_or_path: WebAssembly.Module }): Promise<unknown>;
-  Engine: new (cores: number) => WasmEngine;
+  Engine: new (cores: number, depth: number) => WasmEngine;
 }
 
 let engine: WasmEngine | null = null;
@@ -25,7 +25,7 @@ async function act(message: ToWorker): Promise<void> {
   if (message.kind === "start") {
     const glue = (await import(/* @vite-ignore */ message.glue)) as Glue;
     await glue.default({ module_or_path: message.module });
-    engine = new glue.Engine(message.cores);
+    engine = new glue.Engine(message.cores, message.depth);
     tell({ kind: "ready" });
     return;
   }
@@ -52,5 +52,5 @@ async function act(message: ToWorker): Promise<void> {
 }
 
 onmessage = (event: MessageEvent<ToWorker>) => {
-  act(event.data).catch((error: unknown) => tell({ kind: "crashed", why: String(error) }));
+  act(event.data).catch((error: unknown) => tell({ kind: "crashed", deep: error instanceof RangeError }));
 };

@@ -6,7 +6,7 @@ import { EngineError, type Engine, type EngineState } from "./engine";
 import type { Conflict, Events, Requests } from "./protocol";
 
 export type ToWorker =
-  | { kind: "start"; glue: string; module: WebAssembly.Module; cores: number }
+  | { kind: "start"; glue: string; module: WebAssembly.Module; cores: number; depth: number }
   | { kind: "ask"; message: string }
   | { kind: "file"; message: string }
   | { kind: "show"; number: number; view: string }
@@ -18,13 +18,17 @@ export type FromWorker =
   | { kind: "file"; answer: string; bytes: ArrayBuffer }
   | { kind: "shown"; number: number; shown: string }
   | { kind: "tile"; number: number; pass: number; bytes: ArrayBuffer; rays: number }
-  | { kind: "crashed"; why: string };
+  /** It is of no more use; `deep` where it had called too deeply for the browser. */
+  | { kind: "crashed"; deep: boolean };
 
 /** How long a worker may be at something that is no longer wanted, in milliseconds. */
 const PATIENCE = 1500;
 /** How long it may be at anything but starting. */
 const MOST_PATIENCE = 60_000;
 const MOST_WORKERS = 16;
+/** How deeply a scene may call: as far as the browser's stack goes, or, where that was not enough, as is safe in all. */
+const DEPTH = 2000;
+const CAREFUL_DEPTH = 150;
 
 interface Question {
   message: string;
@@ -36,6 +40,7 @@ interface Question {
 /** One worker: what it does, and what it has still to be told. */
 interface Lane {
   worker: Worker;
+  depth: number;
   busy: ToWorker | null;
   since: number;
   started: boolean;
@@ -83,6 +88,8 @@ export class WorkerEngine implements Engine {
   private told = 0;
   private picture: Picture | null = null;
   private next = 1;
+  /** How deeply new workers may call. */
+  private depth = DEPTH;
   private readonly cores = Math.max(1, Math.min(MOST_WORKERS, navigator.hardwareConcurrency || 2));
 
   constructor() {
@@ -113,10 +120,10 @@ export class WorkerEngine implements Engine {
 
   private hire(): Lane {
     const worker = new Worker(new URL("./engine-worker.ts", import.meta.url), { type: "module" });
-    const lane: Lane = { worker, busy: null, since: 0, started: false, behind: new Set(this.documents.keys()), questions: [], asking: null, shown: 0, rays: 0 };
+    const lane: Lane = { worker, depth: this.depth, busy: null, since: 0, started: false, behind: new Set(this.documents.keys()), questions: [], asking: null, shown: 0, rays: 0 };
     worker.onmessage = (event: MessageEvent<FromWorker>) => this.receive(lane, event.data);
-    worker.onerror = (event) => this.receive(lane, { kind: "crashed", why: event.message });
-    if (this.module) this.order(lane, { kind: "start", glue: new URL("engine/hray_playground.js", document.baseURI).href, module: this.module, cores: this.cores });
+    worker.onerror = () => this.receive(lane, { kind: "crashed", deep: false });
+    if (this.module) this.order(lane, { kind: "start", glue: new URL("engine/hray_playground.js", document.baseURI).href, module: this.module, cores: this.cores, depth: this.depth });
     return lane;
   }
 
@@ -133,6 +140,7 @@ export class WorkerEngine implements Engine {
         const { doc, version, text } = parameters as Requests["edit"][0];
         this.documents.set(doc, { version, text });
         for (const lane of this.lanes) lane.behind.add(doc);
+        this.dare();
         if (this.view?.doc === doc) this.show();
         else this.pump();
         return Promise.resolve({} as Result);
@@ -212,7 +220,11 @@ export class WorkerEngine implements Engine {
 
   private receive(lane: Lane, message: FromWorker): void {
     if (message.kind === "crashed") {
-      this.crashed(lane, "the engine made a mistake with this scene");
+      if (message.deep && lane.busy?.kind !== "tile" && lane.depth > CAREFUL_DEPTH) {
+        // Another one comes to the same place, and says which call goes too deep.
+        this.depth = CAREFUL_DEPTH;
+        this.replace(lane);
+      } else this.crashed(lane, "the engine gave up on this scene, which may need more memory or a deeper stack than a browser has; the program itself has them");
       return;
     }
     lane.busy = null;
@@ -314,21 +326,39 @@ export class WorkerEngine implements Engine {
     this.tell({ event: "done", frame: picture.number, seconds, rays, hash });
   }
 
+  /** The text is another: it may call as deeply as ever. */
+  private dare(): void {
+    if (this.depth === DEPTH) return;
+    this.depth = DEPTH;
+    for (const lane of [...this.lanes]) if (lane.depth !== DEPTH) this.replace(lane);
+  }
+
+  /** Another worker in the place of one, that is asked the same again. */
+  private replace(lane: Lane): void {
+    lane.worker.terminate();
+    const fresh = this.hire();
+    fresh.questions = lane.asking ? [lane.asking, ...lane.questions] : lane.questions;
+    this.lanes[this.lanes.indexOf(lane)] = fresh;
+  }
+
   /** A worker is given up, and another one takes its place. */
   private crashed(lane: Lane, why: string): void {
     const index = this.lanes.indexOf(lane);
     if (index < 0) return;
-    lane.worker.terminate();
     if (!lane.started) {
+      lane.worker.terminate();
       this.tell({ event: "failed", frame: 0, doc: "", message: "The engine cannot be started in this browser. It needs WebAssembly with SIMD." });
       this.lanes.splice(index, 1);
       return;
     }
-    const fresh = this.hire();
-    const { busy } = lane;
+    const { busy, asking } = lane;
+    lane.asking = null;
+    asking?.reject(new EngineError(why));
+    this.replace(lane);
     if (busy?.kind === "show" || busy?.kind === "tile") {
       // The same would happen again: this picture is not tried again.
-      fresh.shown = busy.number;
+      const fresh = this.lanes[index];
+      if (fresh) fresh.shown = busy.number;
       if (busy.number === this.number && this.told !== -busy.number) {
         this.told = -busy.number;
         this.picture = null;
@@ -336,9 +366,6 @@ export class WorkerEngine implements Engine {
         this.tell({ event: "failed", frame: busy.number, doc: this.view?.doc ?? "", message: why });
       }
     }
-    lane.asking?.reject(new EngineError(why));
-    fresh.questions = lane.questions;
-    this.lanes[index] = fresh;
   }
 
   /** Ends what takes too long: nothing inside a worker can be interrupted. */
