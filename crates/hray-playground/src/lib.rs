@@ -62,7 +62,8 @@ impl Engine {
             let _ = files.put(&path, Some(text.as_bytes().to_vec()));
         }
         let about = About { start: None, examples: hray_session::examples(|_| true), cores };
-        let session = Session::new(files.clone(), Arc::new(about), Limits { depth: depth.min(LIMITS.depth), ..LIMITS });
+        let session =
+            Session::new(files.clone(), Arc::new(about), Limits { depth: depth.min(LIMITS.depth), ..LIMITS });
         let (meshes, tracer, control) = (MeshTrees::default(), Tracer::new(), Control::new());
         Self { files, session, meshes, tracer, control, shown: None }
     }
