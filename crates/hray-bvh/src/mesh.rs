@@ -130,6 +130,13 @@ impl TriangleMesh {
         self.tree.any(simd, ray, stack, &mut leaves)
     }
 
+    /// Every triangle that a ray may meet, in the order in which boxes are come to; most are missed narrowly.
+    #[inline(always)]
+    pub fn candidates<S: Simd>(&self, simd: S, ray: &Ray, stack: &mut Stack, found: impl FnMut(u32)) {
+        let mut ray = *ray;
+        self.tree.closest(simd, &mut ray, stack, &mut Candidates { blocks: &self.blocks, found });
+    }
+
     /// The nearest hit by trying every triangle: what [`Self::closest`] has to find.
     #[must_use]
     pub fn closest_of_all<S: Simd>(&self, simd: S, ray: &Ray) -> Option<Hit> {
@@ -180,6 +187,36 @@ impl Leaves for MeshLeaves<'_> {
             #[inline(always)]
             |block| hits(simd, block, &self.shear, ray.near, ray.far).is_some(),
         )
+    }
+}
+
+struct Candidates<'a, F> {
+    blocks: &'a [Block],
+    found: F,
+}
+
+impl<F: FnMut(u32)> Leaves for Candidates<'_, F> {
+    #[inline(always)]
+    fn prefetch(&self, unit: usize) {
+        if let Some(block) = self.blocks.get(unit) {
+            prefetch(block);
+        }
+    }
+
+    #[inline(always)]
+    fn closest<S: Simd>(&mut self, _simd: S, _ray: &mut Ray, units: std::ops::Range<usize>) {
+        for block in &self.blocks[units] {
+            block
+                .numbers
+                .iter()
+                .filter(|&&number| number != u32::MAX)
+                .for_each(|&number| (self.found)(number));
+        }
+    }
+
+    #[inline(always)]
+    fn any<S: Simd>(&mut self, _simd: S, _ray: &Ray, _units: std::ops::Range<usize>) -> bool {
+        false
     }
 }
 

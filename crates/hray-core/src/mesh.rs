@@ -1,18 +1,33 @@
 //! Triangles that share vertices.
 
+use std::collections::HashMap;
 use std::fmt;
+use std::sync::OnceLock;
 
 /// A surface made of triangles, in object space, in single precision: what mesh files hold.
 ///
 /// Seen from outside, the vertices of a triangle go round counterclockwise. Where there are normals at vertices, they are
 /// interpolated for shading; u and v are those of the vertices, or else the weights of the second and third vertex.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default)]
 pub struct Mesh {
     pub(crate) positions: Vec<[f32; 3]>,
     pub(crate) triangles: Vec<[u32; 3]>,
     pub(crate) normals: Vec<[f32; 3]>,
     pub(crate) uvs: Vec<[f32; 2]>,
     pub(crate) colors: Vec<[f32; 3]>,
+    /// Worked out where it is asked for.
+    pub(crate) open_edges: OnceLock<usize>,
+}
+
+impl PartialEq for Mesh {
+    fn eq(&self, other: &Self) -> bool {
+        let Self { positions, triangles, normals, uvs, colors, open_edges: _ } = self;
+        *positions == other.positions
+            && *triangles == other.triangles
+            && *normals == other.normals
+            && *uvs == other.uvs
+            && *colors == other.colors
+    }
 }
 
 /// Why parts do not make a mesh.
@@ -177,6 +192,35 @@ impl Mesh {
         bounds
     }
 
+    /// How many edges have no partner, so that one could get in there: edges between the same two points that are not as often
+    /// gone along in one direction as in the other. A mesh with none has an inside, and can be a part of solids: all points
+    /// around which the surface goes, in whichever direction. Vertices in the same place are one here, and triangles that
+    /// are not seen do not count.
+    #[must_use]
+    pub fn open_edges(&self) -> usize {
+        *self.open_edges.get_or_init(|| {
+            let mut points = HashMap::with_capacity(self.positions.len());
+            let at: Vec<u32> = (0u32..)
+                .zip(&self.positions)
+                // Adding 0 makes one zero of both.
+                .map(|(number, p)| *points.entry(p.map(|x| (x + 0.0).to_bits())).or_insert(number))
+                .collect();
+            let is_finite = |vertex: &u32| self.positions[*vertex as usize].iter().all(|x| x.is_finite());
+            let mut edges = Vec::with_capacity(3 * self.triangles.len());
+            for triangle in self.triangles.iter().filter(|triangle| triangle.iter().all(is_finite)) {
+                let [a, b, c] = triangle.map(|vertex| at[vertex as usize]);
+                for (from, to) in [(a, b), (b, c), (c, a)] {
+                    if from != to {
+                        edges.push((from.min(to), from.max(to), if from < to { 1i32 } else { -1 }));
+                    }
+                }
+            }
+            edges.sort_unstable();
+            let same = |a: &(u32, u32, i32), b: &(u32, u32, i32)| (a.0, a.1) == (b.0, b.1);
+            edges.chunk_by(same).filter(|edge| edge.iter().map(|(.., way)| way).sum::<i32>() != 0).count()
+        })
+    }
+
     /// The bytes that it takes.
     #[must_use]
     pub fn bytes(&self) -> usize {
@@ -191,6 +235,26 @@ impl Mesh {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn what_is_closed_has_no_open_edges() {
+        let corners = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+        let faces = [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]];
+        let edges = |positions: &[[f32; 3]], faces: &[[u32; 3]]| {
+            Mesh::new(positions.to_vec(), faces.to_vec()).unwrap().open_edges()
+        };
+        assert_eq!(edges(&corners, &faces), 0);
+        assert_eq!(edges(&corners, &faces[1..]), 3);
+        // One face the wrong way round.
+        assert_eq!(edges(&corners, &[[0, 1, 2], [0, 1, 3], [1, 2, 3], [2, 0, 3]]), 3);
+        // Each face with vertices of its own, one zero of them negative, and a triangle that is a line.
+        let mut own: Vec<[f32; 3]> = faces.iter().flatten().map(|&vertex| corners[vertex as usize]).collect();
+        own[0][0] = -0.0;
+        let mut soup: Vec<[u32; 3]> = (0..4).map(|face| [3 * face, 3 * face + 1, 3 * face + 2]).collect();
+        soup.push([0, 1, 0]);
+        assert_eq!(edges(&own, &soup), 0);
+        assert_eq!(edges(&[[f32::NAN; 3]], &[[0, 0, 0]]), 0);
+    }
 
     #[test]
     fn what_does_not_fit_is_refused() {

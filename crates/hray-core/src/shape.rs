@@ -92,7 +92,8 @@ impl Shape {
         match self {
             Self::Sphere(_) | Self::Plane(_) | Self::Cuboid(_) | Self::Torus(_) | Self::Csg(_) => true,
             Self::Frustum(frustum) => frustum.is_capped,
-            Self::Disc(_) | Self::Mesh(_) => false,
+            Self::Mesh(mesh) => !mesh.triangles().is_empty() && mesh.open_edges() == 0,
+            Self::Disc(_) => false,
         }
     }
 }

@@ -92,8 +92,23 @@ fn what_makes_no_mesh_is_told() {
     told("mesh { file = \"a.stl\" }", "\"a.stl\" cannot be read: line 3: it is damaged");
     told("mesh { file = 3 }", "file");
     told("mesh {}", "file");
-    told("difference (sphere {}) (group [cube {}, mesh { file = \"a.ply\" }])", "cannot be part of a solid");
-    told("union (translate up (mesh { file = \"a.ply\" })) (sphere {})", "cannot be part of a solid");
+}
+
+#[test]
+fn a_mesh_is_a_part_of_solids_where_it_is_closed() {
+    let tetrahedron = |faces: &str| {
+        let points = "points = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)]";
+        format!("difference (sphere {{}}) (group [cube {{}}, triangles {{ {points}, faces = [{faces}] }}])")
+    };
+    let whole = objects(&tetrahedron("[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]"));
+    assert!(whole[0].leaves().any(|leaf| matches!(leaf.shape, Shape::Mesh(_))));
+    let refused = |object: &str, expected: &str| {
+        let errors = errors(&format!("scene = {{ objects = [{object}] }}"));
+        assert!(errors.contains("cannot be part of a solid") && errors.contains(expected), "{errors}");
+    };
+    refused(&tetrahedron("[0, 2, 1], [0, 1, 3], [1, 2, 3]"), "3 of its edges are open");
+    refused(&tetrahedron(""), "is empty");
+    refused("union (translate up (mesh { file = \"a.ply\" })) (sphere {})", "of its edges are open");
 }
 
 #[test]

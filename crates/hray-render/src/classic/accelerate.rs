@@ -3,17 +3,19 @@
 use super::geometry::{Geometry, Root};
 use super::placement::Placement;
 use super::shapes::{Prepared, Rays};
-use super::solid::{Solid, Walk};
+use super::solid::{Ray, Solid, Walk};
 use super::trace::{Nearest, mesh_hit, mesh_shadow, placed_hit, solid_hit};
 use fearless_simd::f32x8;
 use fearless_simd::prelude::*;
-use hray_bvh::{AnyLeaves, Bounds, ClosestLeaves, MOST_RAYS, Packet, Tree};
+use hray_bvh::{AnyLeaves, Bounds, ClosestLeaves, Leaves, MOST_RAYS, Packet, Tree};
 use hray_core::{CsgOperation, DVec3};
 use hray_expr::kernels::lanes::{Lanes, Mask, Vec3};
 use std::ops::Range;
 
 /// With fewer bounded objects trying all of them is quicker.
 const WORTHWHILE: usize = 12;
+/// So few leaves of a solid as well.
+const WORTHWHILE_IN_SOLIDS: usize = 4;
 /// More cannot be numbered.
 const MOST: usize = 1 << 27;
 /// Coordinates of greater magnitude, from the middle of everything, are left out of the tree: their squares, and products with
@@ -47,8 +49,6 @@ const EVERYWHERE: Corners = [DVec3::NEG_INFINITY, DVec3::INFINITY];
 /// Moves what is bounded from the roots to a tree, if that is worth it.
 pub(super) fn accelerate(geometry: &mut Geometry) {
     let (mut items, mut boxes, mut others) = (Vec::new(), Vec::new(), Vec::new());
-    let is_bounded =
-        |corners: &Corners| corners.iter().all(|corner| corner.abs().cmplt(DVec3::splat(FARTHEST)).all());
     let mut sort = |item: Item, corners: Corners, other: Root| {
         if is_bounded(&corners) && items.len() < MOST {
             items.push(item);
@@ -76,23 +76,110 @@ pub(super) fn accelerate(geometry: &mut Geometry) {
             }
         }
     }
-    if items.len() < WORTHWHILE {
+    let boxes_of_solids: Vec<_> = geometry.solids.iter().map(|solid| Boxes::new(geometry, solid)).collect();
+    for (solid, boxes) in geometry.solids.iter_mut().zip(boxes_of_solids) {
+        solid.boxes = boxes;
+    }
+    if items.len() < WORTHWHILE && geometry.solids.iter().all(|solid| solid.boxes.is_none()) {
         return;
     }
-    let whole = boxes.iter().copied().reduce(union).unwrap_or(EVERYWHERE);
+    if let Some((tree, order, center)) = tree_of(&boxes) {
+        let items = order.iter().map(|&number| items[number as usize]).collect();
+        geometry.roots = others;
+        geometry.tree = Some(Accelerated { tree, items, center });
+    }
+}
+
+/// A tree over boxes, their numbers in its order, and the origin of its coordinates; nothing where they are too great or
+/// too small.
+fn tree_of(boxes: &[Corners]) -> Option<(Tree, Vec<u32>, DVec3)> {
+    let whole = boxes.iter().copied().reduce(union)?;
     let center = (whole[0] + whole[1]) * 0.5;
     let reach = (whole[1] - whole[0]).max_element();
     if !(SMALLEST..FARTHEST).contains(&reach) {
-        return;
+        return None;
     }
     let boxes: Vec<Bounds> = boxes
         .iter()
         .map(|[min, max]| Bounds::outward((*min - center).to_array(), (*max - center).to_array()))
         .collect();
     let (tree, order) = Tree::of_boxes(&boxes);
-    let items = order.iter().map(|&number| items[number as usize]).collect();
-    geometry.roots = others;
-    geometry.tree = Some(Accelerated { tree, items, center });
+    Some((tree, order, center))
+}
+
+fn is_bounded(corners: &Corners) -> bool {
+    corners.iter().all(|corner| corner.abs().cmplt(DVec3::splat(FARTHEST)).all())
+}
+
+/// The leaves of a solid, by where they are.
+pub(super) struct Boxes {
+    tree: Tree,
+    /// What the units of the tree's leaves are.
+    leaves: Box<[u32]>,
+    /// Leaves without bounds.
+    others: Box<[u32]>,
+    center: DVec3,
+}
+
+impl Boxes {
+    /// Nothing where trying all leaves is as quick.
+    fn new(geometry: &Geometry, solid: &Solid) -> Option<Self> {
+        let (mut leaves, mut boxes, mut others) = (Vec::new(), Vec::new(), Vec::new());
+        for leaf in 0..solid.leaves.len() as u32 {
+            let corners = of_leaf(geometry, solid.first + leaf);
+            if is_bounded(&corners) {
+                leaves.push(leaf);
+                boxes.push(corners);
+            } else {
+                others.push(leaf);
+            }
+        }
+        if leaves.len() < WORTHWHILE_IN_SOLIDS {
+            return None;
+        }
+        let (tree, order, center) = tree_of(&boxes)?;
+        let leaves = order.iter().map(|&number| leaves[number as usize]).collect();
+        Some(Self { tree, leaves, others: others.into(), center })
+    }
+
+    /// Puts the leaves that a ray may meet between its start and `far` into `walk.met`.
+    #[inline(always)]
+    pub(super) fn meet<S: Simd>(&self, simd: S, ray: &Ray, far: f64, walk: &mut Walk) {
+        let Walk { met, stack, .. } = walk;
+        met.clear();
+        met.extend_from_slice(&self.others);
+        let from = ray.origin - self.center;
+        let [origin, direction] = [from, ray.direction].map(|v| v.to_array().map(|x| x as f32));
+        let far = (far * (1.0 + f64::from(f32::EPSILON))) as f32;
+        let mut ray = hray_bvh::Ray::new(simd, origin, direction, 0.0, far, self.tree.reach());
+        // No box can be tested against such a ray.
+        if !(from.abs().max_element() < FARTHEST && ray.far >= 0.0) {
+            met.extend_from_slice(&self.leaves);
+            return;
+        }
+        self.tree.closest(simd, &mut ray, stack, &mut Meet { leaves: &self.leaves, met });
+    }
+}
+
+/// Notes all leaves that are come to.
+struct Meet<'a> {
+    leaves: &'a [u32],
+    met: &'a mut Vec<u32>,
+}
+
+impl Leaves for Meet<'_> {
+    #[inline(always)]
+    fn prefetch(&self, _unit: usize) {}
+
+    #[inline(always)]
+    fn closest<S: Simd>(&mut self, _simd: S, _ray: &mut hray_bvh::Ray, units: Range<usize>) {
+        self.met.extend_from_slice(&self.leaves[units]);
+    }
+
+    #[inline(always)]
+    fn any<S: Simd>(&mut self, _simd: S, _ray: &hray_bvh::Ray, _units: Range<usize>) -> bool {
+        false
+    }
 }
 
 /// The box around a leaf in the world.
@@ -294,9 +381,11 @@ impl<S: Simd> Search<'_, S> {
                     self.nearest.triangle = taken.select(triangle, self.nearest.triangle);
                 }
                 Item::Solid(solid) => {
-                    let solid = self.geometry.solid_at(solid);
-                    let (distance, leaf) = solid_hit(simd, self.geometry, solid, self.rays, first, self.walk);
-                    self.nearest.take_any(distance, distance.simd_eq(distance), leaf);
+                    let (solid, far) = (self.geometry.solid_at(solid), self.nearest.distance);
+                    let [distance, leaf, triangle] =
+                        solid_hit(simd, self.geometry, solid, self.rays, far, first, self.walk);
+                    let taken = self.nearest.take_any(distance, distance.simd_eq(distance), leaf);
+                    self.nearest.triangle = taken.select(triangle, self.nearest.triangle);
                 }
             }
         }
@@ -326,7 +415,8 @@ impl<S: Simd> AnyLeaves<S> for Shadows<'_, S> {
                 }
                 Item::Solid(solid) => {
                     let solid = self.geometry.solid_at(solid);
-                    let (at, _) = solid_hit(simd, self.geometry, solid, self.rays, 0.0, self.walk);
+                    let [at, ..] =
+                        solid_hit(simd, self.geometry, solid, self.rays, self.distance, 0.0, self.walk);
                     Some((at, at.simd_eq(at)))
                 }
             };

@@ -45,7 +45,7 @@ pub(super) struct Geometry {
     shapes: Vec<Prepared>,
     leaves: Vec<Leaf>,
     placements: Vec<Placement>,
-    solids: Vec<Solid>,
+    pub(super) solids: Vec<Solid>,
     pub(super) roots: Vec<Root>,
     /// What is bounded, if there is enough of it: then `roots` are all others.
     pub(super) tree: Option<Accelerated>,
@@ -86,7 +86,7 @@ impl Geometry {
                 geometry.add_leaf(shape, leaf);
                 geometry.extend_roots(first, place != NOT_PLACED);
             } else {
-                let solid = geometry.solid(primitive, integrator, materials, &mut places)?;
+                let solid = geometry.solid(primitive, integrator, materials, meshes, &mut places)?;
                 parts += solid.leaves.len();
                 if parts > MAX_SOLID_PARTS {
                     return Err(TooManyParts);
@@ -119,6 +119,7 @@ impl Geometry {
         primitive: &Primitive,
         integrator: Integrator,
         materials: &mut Materials,
+        meshes: &mut MeshTrees,
         places: &mut Places,
     ) -> Result<Solid, TooManyParts> {
         enum Task<'a> {
@@ -144,7 +145,11 @@ impl Geometry {
                     if leaves.len() == MAX_SOLID_PARTS {
                         return Err(TooManyParts);
                     }
-                    if let Some(shape) = Prepared::new(&part.shape, integrator) {
+                    let shape = match &part.shape {
+                        Shape::Mesh(mesh) => Some(Prepared::Mesh(meshes.of(mesh).map_err(|_| TooManyParts)?)),
+                        shape => Prepared::new(shape, integrator),
+                    };
+                    if let Some(shape) = shape {
                         let place = places.of(transform.as_ref(), &mut self.placements);
                         let place = place << 1 | u32::from(turned);
                         self.add_leaf(shape, Leaf { material: materials.of(&part.material), place });
@@ -161,7 +166,7 @@ impl Geometry {
             }
             made.push(node);
         }
-        Ok(Solid { first, leaves: leaves.into(), nodes: nodes.into() })
+        Ok(Solid { first, leaves: leaves.into(), nodes: nodes.into(), boxes: None })
     }
 
     /// Whether any leaf is a mesh.

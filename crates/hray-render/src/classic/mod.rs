@@ -372,4 +372,6 @@ impl Integrator {
 #[cfg(test)]
 mod round_tests;
 #[cfg(test)]
+mod solid_tests;
+#[cfg(test)]
 mod tests;

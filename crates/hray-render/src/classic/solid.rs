@@ -1,16 +1,21 @@
 //! Constructive solid geometry, one ray at a time.
 //!
-//! A ray is inside a leaf of a solid over one interval of distances, or over two where it is not convex. The ends of all
+//! A ray is inside a leaf of a solid over one interval of distances, or over several where it is not convex. The ends of all
 //! intervals are sorted; on the way along the ray each end changes one leaf, which is carried up the tree of operations as
 //! far as something changes. Where the root changes the ray meets the solid's surface. What is cut away is known
 //! for each leaf beforehand: a surface is turned inside out where an odd number of differences lie above its second
 //! operand.
 //!
-//! The tree is a list in which operands come before what is made of them; nothing here recurses.
+//! Leaves whose boxes a ray does not meet are left out: a tree over the boxes tells which (`accelerate.rs`).
+//!
+//! The tree of operations is a list in which operands come before what is made of them; nothing here recurses.
 
+use super::accelerate::Boxes;
 use super::geometry::Geometry;
+use super::mesh::Crossing;
 use super::round::{MOST_INTERVALS, NOWHERE};
 use super::shapes::{PARALLEL, Prepared};
+use fearless_simd::Simd;
 use hray_bvh::{PacketStack, Stack};
 use hray_core::{CsgOperation, DVec3};
 
@@ -29,6 +34,8 @@ pub(super) struct Solid {
     pub(super) leaves: Box<[u32]>,
     /// Operands before what is made of them; the last is the whole.
     pub(super) nodes: Box<[Node]>,
+    /// The boxes around its leaves, where it has many.
+    pub(super) boxes: Option<Boxes>,
 }
 
 /// A leaf or an operation.
@@ -45,9 +52,12 @@ pub(super) struct Node {
 pub(super) struct Walk {
     inside: Vec<bool>,
     ends: Vec<End>,
+    crossings: Vec<Crossing>,
+    /// Leaves of a solid that a ray may meet.
+    pub(super) met: Vec<u32>,
     /// In the tree over everything.
     pub(super) packets: PacketStack,
-    /// In a mesh's tree.
+    /// In a tree over a mesh or a solid.
     pub(super) stack: Stack,
 }
 
@@ -57,42 +67,85 @@ struct End {
     at: f64,
     leaf: u32,
     enters: bool,
+    /// Where the leaf is a mesh.
+    triangle: u32,
+}
+
+/// Where a ray meets a solid.
+#[derive(Clone, Copy)]
+pub(super) struct SolidHit {
+    pub(super) at: f64,
+    /// The leaf, among all of the scene.
+    pub(super) leaf: usize,
+    /// Which of its triangles, where it is a mesh.
+    pub(super) triangle: u32,
 }
 
 impl Solid {
-    /// The nearest distance beyond `geometry.nearest` at which a ray meets the surface, and the leaf that it
-    /// belongs to there. Of several leaves in the same place, the one that is written last.
-    pub(super) fn hit(&self, geometry: &Geometry, ray: &Ray, walk: &mut Walk) -> Option<(f64, usize)> {
-        let Walk { inside, ends, .. } = walk;
+    /// The nearest distance beyond `geometry.nearest`, and not beyond `far`, at which a ray meets the surface, and the leaf
+    /// that it belongs to there. Of several leaves in the same place, the one that is written last.
+    #[inline(always)]
+    pub(super) fn hit<S: Simd>(
+        &self,
+        simd: S,
+        geometry: &Geometry,
+        ray: &Ray,
+        far: f64,
+        walk: &mut Walk,
+    ) -> Option<SolidHit> {
+        match &self.boxes {
+            Some(boxes) => boxes.meet(simd, ray, far, walk),
+            None => {
+                walk.met.clear();
+                walk.met.extend(0..self.leaves.len() as u32);
+            }
+        }
+        self.hit_of(simd, geometry, ray, walk).filter(|hit| hit.at <= far)
+    }
+
+    /// The same among the leaves in `walk.met`.
+    fn hit_of<S: Simd>(&self, simd: S, geometry: &Geometry, ray: &Ray, walk: &mut Walk) -> Option<SolidHit> {
+        let Walk { inside, ends, met, crossings, stack, .. } = walk;
+        if met.is_empty() {
+            return None;
+        }
         inside.clear();
         inside.resize(self.nodes.len(), false);
         ends.clear();
-        for (leaf, &node) in (0u32..).zip(&self.leaves) {
+        for &leaf in met.iter() {
             let index = self.first as usize + leaf as usize;
+            if let Prepared::Mesh(mesh) = geometry.shape(index) {
+                let ray = geometry.own_ray(index, ray);
+                if mesh.crossings(simd, &ray, geometry.nearest, stack, crossings) {
+                    self.change(leaf, true, inside);
+                }
+                ends.extend(crossings.iter().map(|crossing| {
+                    let Crossing { at, turns, triangle } = *crossing;
+                    End { at, leaf, enters: turns != 0, triangle }
+                }));
+                continue;
+            }
             for [enter, exit] in geometry.intervals(index, ray) {
                 // Not where one is no number.
                 if enter < exit {
-                    inside[node as usize] |= enter <= geometry.nearest && geometry.nearest < exit;
+                    if enter <= geometry.nearest && geometry.nearest < exit {
+                        self.change(leaf, true, inside);
+                    }
                     let ahead = |at: f64| at > geometry.nearest && at < f64::INFINITY;
-                    ends.extend(ahead(enter).then_some(End { at: enter, leaf, enters: true }));
-                    ends.extend(ahead(exit).then_some(End { at: exit, leaf, enters: false }));
+                    ends.extend(ahead(enter).then_some(End { at: enter, leaf, enters: true, triangle: 0 }));
+                    ends.extend(ahead(exit).then_some(End { at: exit, leaf, enters: false, triangle: 0 }));
                 }
             }
         }
         if ends.is_empty() {
             return None;
         }
-        for node in 0..self.nodes.len() {
-            if self.nodes[node].made.is_some() {
-                inside[node] = self.value(node, inside);
-            }
-        }
         ends.sort_unstable_by(|a, b| a.at.total_cmp(&b.at).then(a.leaf.cmp(&b.leaf)));
         let whole = self.nodes.len() - 1;
         for together in ends.chunk_by(|a, b| a.at == b.at) {
             let before = inside[whole];
             for end in together {
-                self.change(end, inside);
+                self.change(end.leaf, end.enters, inside);
             }
             let after = inside[whole];
             if after != before {
@@ -102,7 +155,8 @@ impl Solid {
                     (end.enters != geometry.is_turned(index)) == after
                 };
                 let end = together.iter().rev().find(fits).or(together.last())?;
-                return Some((end.at, self.first as usize + end.leaf as usize));
+                let leaf = self.first as usize + end.leaf as usize;
+                return Some(SolidHit { at: end.at, leaf, triangle: end.triangle });
             }
         }
         None
@@ -119,10 +173,10 @@ impl Solid {
         }
     }
 
-    /// Enters or leaves a leaf, and what is made of it.
-    fn change(&self, end: &End, inside: &mut [bool]) {
-        let mut node = self.leaves[end.leaf as usize] as usize;
-        inside[node] = end.enters;
+    /// Enters or leaves a leaf, and what is made of it. Outside of all leaves is outside of everything.
+    fn change(&self, leaf: u32, enters: bool, inside: &mut [bool]) {
+        let mut node = self.leaves[leaf as usize] as usize;
+        inside[node] = enters;
         loop {
             let parent = self.nodes[node].parent as usize;
             if parent == node {
@@ -199,7 +253,7 @@ fn interval(shape: &Prepared, ray: &Ray) -> [f64; 2] {
             }
             [enter, exit]
         }
-        // Not a part of solids, or not convex.
+        // Not convex.
         Prepared::Mesh(_) | Prepared::Round { .. } => nowhere,
     }
 }

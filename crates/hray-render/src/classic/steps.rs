@@ -144,6 +144,10 @@ fn locate_special<S: Simd>(
     }
     if geometry.is_turned(group.leaf) {
         normal = negated(normal);
+        if geometry.is_smooth(group.leaf) {
+            let [x, y, z, ..] = frame.hit_smooth.get_mut();
+            negated(Vec3::load(simd, [&*x, &*y, &*z], i)).store([x, y, z], i);
+        }
     }
     point.store(frame.hit_point.get_mut(), i);
     normal.store(frame.hit_normal.get_mut(), i);

@@ -19,11 +19,12 @@ pub(super) struct Nearest<S: Simd> {
 
 impl<S: Simd> Nearest<S> {
     #[inline(always)]
-    fn take(&mut self, distance: Lanes<S>, hit: Mask<S>, leaf: Lanes<S>) {
+    fn take(&mut self, distance: Lanes<S>, hit: Mask<S>, leaf: Lanes<S>) -> Mask<S> {
         // Before the first hit the distance is not a number, and nothing is farther than that.
         let nearer = hit & !distance.simd_ge(self.distance);
         self.distance = nearer.select(distance, self.distance);
         self.leaf = nearer.select(leaf, self.leaf);
+        nearer
     }
 
     /// As [`Self::take`] does in the order of leaves, but in any order. Returns what was taken.
@@ -72,9 +73,11 @@ pub(super) fn nearest<S: Simd>(
                 }
             }
             Root::Solid(solid) => {
-                let (distance, leaf) =
-                    solid_hit(simd, geometry, geometry.solid_at(*solid), rays, nothing + 1.0, walk);
-                nearest.take(distance, distance.simd_eq(distance), leaf);
+                let (solid, far) = (geometry.solid_at(*solid), nearest.distance);
+                let [distance, leaf, triangle] =
+                    solid_hit(simd, geometry, solid, rays, far, nothing + 1.0, walk);
+                let taken: Mask<S> = nearest.take(distance, distance.simd_eq(distance), leaf);
+                nearest.triangle = taken.select(triangle, nearest.triangle);
             }
             Root::Mesh(leaf) => {
                 let (distance, triangle) =
@@ -129,7 +132,8 @@ pub(super) fn shadowed<S: Simd>(
                 }
             }
             Root::Solid(solid) => {
-                let (at, _) = solid_hit(simd, geometry, geometry.solid_at(*solid), rays, 0.0, walk);
+                let [at, ..] =
+                    solid_hit(simd, geometry, geometry.solid_at(*solid), rays, distance, 0.0, walk);
                 // Where nothing is met, the distance is no number.
                 dark |= at.simd_le(distance);
                 if dark.all_true() {
@@ -234,23 +238,25 @@ pub(super) fn placed_hit<S: Simd>(
     )
 }
 
-/// Distances, which are no numbers where the ray misses, and leaves, the first of the scene being `first`.
+/// Distances up to `far` (or any, where that is no number), which are no numbers where the ray misses; leaves, the first of
+/// the scene being `first`; and triangles, where these are meshes.
 #[inline(always)]
 pub(super) fn solid_hit<S: Simd>(
     simd: S,
     geometry: &Geometry,
     solid: &Solid,
     rays: &Rays<S>,
+    far: Lanes<S>,
     first: f64,
     walk: &mut Walk,
-) -> (Lanes<S>, Lanes<S>) {
-    let (mut distances, mut leaves) = ([f64::NAN; MAX_LANES], [f64::NAN; MAX_LANES]);
-    for (lane, (at, which)) in distances.iter_mut().zip(&mut leaves).enumerate().take(Lanes::<S>::LEN) {
-        if let Some((distance, leaf)) = solid.hit(geometry, &ray_of(rays, lane), walk) {
-            *at = distance;
-            *which = first + leaf as f64;
+) -> [Lanes<S>; 3] {
+    let mut columns = [[f64::NAN; MAX_LANES], [f64::NAN; MAX_LANES], [0.0; MAX_LANES]];
+    for lane in 0..Lanes::<S>::LEN {
+        let far = if far[lane] < f64::INFINITY { far[lane] } else { f64::INFINITY };
+        if let Some(hit) = solid.hit(simd, geometry, &ray_of(rays, lane), far, walk) {
+            let hit = [hit.at, first + hit.leaf as f64, f64::from(hit.triangle)];
+            columns.iter_mut().zip(hit).for_each(|(column, value)| column[lane] = value);
         }
     }
-    let len = Lanes::<S>::LEN;
-    (Lanes::<S>::from_slice(simd, &distances[..len]), Lanes::<S>::from_slice(simd, &leaves[..len]))
+    columns.map(|column| Lanes::<S>::from_slice(simd, &column[..Lanes::<S>::LEN]))
 }

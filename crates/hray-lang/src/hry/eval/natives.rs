@@ -3,14 +3,14 @@
 use super::compile::internal;
 use super::failure::{Failure, Outcome};
 use super::limits::Charge;
-use super::machine::{Machine, depends_on_hit};
+use super::machine::{Machine, depends_on_hit, grouped};
 use super::scalar::{assemble, parts};
 use super::value::{HitValue, Kind, RecordValue, Scalar, ShapeNode, ShapeValue, Symbol, Value};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::hry::ast::BinaryOperator;
 use crate::hry::library::Native;
 use crate::hry::program::missing_asset;
-use hray_core::CsgOperation;
+use hray_core::{CsgOperation, Shape};
 use hray_expr::{Binary, Block, NodeId, NoiseKind, Unary};
 use std::fmt::Write as _;
 use std::sync::Arc;
@@ -440,14 +440,8 @@ impl Machine<'_> {
         let (Value::Shape(a), Value::Shape(b)) = (a, b) else {
             return Err(internal(span, "a solid of something else than shapes").into());
         };
-        if a.is_hollow || b.is_hollow {
-            let message = "what has no inside cannot be part of a solid";
-            let label = "a mesh, a disc or something open is in one of the two";
-            let error = Diagnostic::error("not-a-solid", message, span, label);
-            return Err(Failure::new(error.with_help(
-                "`group` puts shapes together without joining them; spheres, planes, boxes, cylinders, cones, tori and what \
-                 is made of them have an inside (a mesh has none yet)",
-            )));
+        if let Some(shape) = a.hollow().or_else(|| b.hollow()) {
+            return Err(hollow(shape, span));
         }
         let nesting = a.nesting.max(b.nesting) + 1;
         let origin = self.origin(span);
@@ -474,15 +468,7 @@ impl Machine<'_> {
                 ),
             ));
         }
-        let is_hollow = match &node {
-            ShapeNode::Leaf { shape, .. } => !shape.is_solid(),
-            ShapeNode::Csg { .. } => false,
-            ShapeNode::Group(list) => {
-                list.items.iter().any(|item| matches!(item, Value::Shape(shape) if shape.is_hollow))
-            }
-            ShapeNode::Placed { shape, .. } | ShapeNode::Painted { shape, .. } => shape.is_hollow,
-        };
-        Ok(Value::Shape(Arc::new(ShapeValue { node, nesting, is_hollow, _charge: charge })))
+        Ok(Value::Shape(Arc::new(ShapeValue { node, nesting, _charge: charge })))
     }
 
     /// A hit as a moved function sees it: taken back by the inverse of the move.
@@ -631,4 +617,30 @@ fn no_element(index: f64, count: usize, span: Span) -> Box<Failure> {
         ),
     };
     Failure::new(Diagnostic::error("no-element", message, span, "asked for here"))
+}
+
+/// Why a shape without an inside cannot be a part of solids.
+fn hollow(shape: &Shape, span: Span) -> Box<Failure> {
+    let message = "what has no inside cannot be part of a solid";
+    let error = |label: &str| Diagnostic::error("not-a-solid", message, span, label);
+    let group = "`group` puts shapes together without joining them";
+    Failure::new(match shape {
+        Shape::Mesh(mesh) if mesh.triangles().is_empty() => {
+            error("a mesh in one of the two is empty").with_help(group)
+        }
+        Shape::Mesh(mesh) => {
+            let label = match mesh.open_edges() {
+                1 => "a mesh in one of the two is not closed: at an edge something is missing".to_owned(),
+                count => {
+                    format!("a mesh in one of the two is not closed: {} of its edges are open", grouped(count as u64))
+                }
+            };
+            error(&label).with_help(format!(
+                "close its holes in the program that made it, and let all triangles go round the same way; or {group}"
+            ))
+        }
+        _ => error("a disc or something open is in one of the two").with_help(format!(
+            "{group}; spheres, planes, boxes, cylinders, cones, tori, closed meshes and what is made of them have an inside"
+        )),
+    })
 }

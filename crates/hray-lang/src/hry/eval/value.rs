@@ -159,10 +159,23 @@ pub(super) struct ShapeValue {
     pub(super) node: ShapeNode,
     /// How deep shapes nest in it.
     pub(super) nesting: u32,
-    /// Whether there is a mesh in it.
-    pub(super) is_hollow: bool,
     /// The bytes of a mesh that is its own.
     pub(super) _charge: Option<Charge>,
+}
+
+impl ShapeValue {
+    /// What of it has no inside, if anything has none.
+    pub(super) fn hollow(&self) -> Option<&Shape> {
+        match &self.node {
+            ShapeNode::Leaf { shape, .. } => (!shape.is_solid()).then_some(shape),
+            ShapeNode::Csg { .. } => None,
+            ShapeNode::Group(list) => list.items.iter().find_map(|item| match item {
+                Value::Shape(shape) => shape.hollow(),
+                _ => None,
+            }),
+            ShapeNode::Placed { shape, .. } | ShapeNode::Painted { shape, .. } => shape.hollow(),
+        }
+    }
 }
 
 #[derive(Debug)]
