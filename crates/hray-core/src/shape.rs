@@ -42,6 +42,21 @@ pub struct Cuboid {
     pub max: DVec3,
 }
 
+/// A quadric: all points where a polynomial of the second degree is 0. Its inside is where that is negative.
+///
+/// Surface parameters: u and v are x and z in object space.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Quadric {
+    /// What x², y² and z² are multiplied by.
+    pub square: DVec3,
+    /// What xy, xz and yz are multiplied by.
+    pub product: DVec3,
+    /// What x, y and z are multiplied by.
+    pub linear: DVec3,
+    /// What is added.
+    pub constant: f64,
+}
+
 /// How two solids make one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CsgOperation {
@@ -79,6 +94,8 @@ pub enum Shape {
     Disc(Arc<Disc>),
     /// A torus.
     Torus(Arc<Torus>),
+    /// A quadric.
+    Quadric(Arc<Quadric>),
     /// A solid made of two.
     Csg(Arc<Csg>),
     /// Triangles, which other primitives may share.
@@ -90,7 +107,12 @@ impl Shape {
     #[must_use]
     pub fn is_solid(&self) -> bool {
         match self {
-            Self::Sphere(_) | Self::Plane(_) | Self::Cuboid(_) | Self::Torus(_) | Self::Csg(_) => true,
+            Self::Sphere(_)
+            | Self::Plane(_)
+            | Self::Cuboid(_)
+            | Self::Torus(_)
+            | Self::Quadric(_)
+            | Self::Csg(_) => true,
             Self::Frustum(frustum) => frustum.is_capped,
             Self::Mesh(mesh) => !mesh.triangles().is_empty() && mesh.open_edges() == 0,
             Self::Disc(_) => false,

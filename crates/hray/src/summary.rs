@@ -129,7 +129,9 @@ impl Objects {
                 Shape::Sphere(_) => &mut objects.spheres,
                 Shape::Plane(_) => &mut objects.planes,
                 Shape::Cuboid(_) => &mut objects.boxes,
-                Shape::Frustum(_) | Shape::Disc(_) | Shape::Torus(_) => &mut objects.round,
+                Shape::Frustum(_) | Shape::Disc(_) | Shape::Torus(_) | Shape::Quadric(_) => {
+                    &mut objects.round
+                }
                 Shape::Csg(_) => &mut objects.csg,
                 Shape::Mesh(_) => &mut objects.meshes,
             } += 1;

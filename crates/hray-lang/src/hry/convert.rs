@@ -245,6 +245,7 @@ fn object(primitive: &Primitive, materials: &Materials) -> Option<Node> {
         | Shape::Frustum(_)
         | Shape::Disc(_)
         | Shape::Torus(_)
+        | Shape::Quadric(_)
         | Shape::Csg(_)
         | Shape::Mesh(_) => return None,
     })

@@ -42,6 +42,7 @@ mistakes! {
     infinite: "scene = { objects = [sphere { radius = exp 1000 }] }";
     cylinder_of_no_length: "scene = { objects = [cylinder { from = (0, 1, 0) }] }";
     thick_torus: "scene = { objects = [torus { radius = 1, tube = 2 }] }";
+    quadric_of_nothing: "scene = { objects = [quadric { constant = 3 }] }";
     disc_in_a_solid: "scene = { objects = [difference (sphere {}) (disc {})] }";
     size_not_whole: "w = 640 / 7\nscene = { size = (w, 480) }";
     angle_without_deg: "a = 60\nscene = { camera = perspective { from = (0, 0, 5), fov = a } }";

@@ -22,6 +22,7 @@ mod mesh;
 mod mesh_trees;
 mod placement;
 mod plans;
+mod quadric;
 mod round;
 mod shapes;
 mod solid;

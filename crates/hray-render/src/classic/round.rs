@@ -1,8 +1,9 @@
-//! Rays against shapes that are round about an axis: truncated cones, discs and tori, one ray at a time.
+//! Rays against curved shapes, one ray at a time: truncated cones, discs, tori and quadrics.
 //!
 //! Distances are worked out from the point of the ray that is nearest to the middle of the shape, so that a ray from far
 //! away meets a shape as exactly as its own numbers allow.
 
+use super::quadric::PreparedQuadric;
 use super::shapes::BOUND;
 use super::solid::Ray;
 use super::torus::PreparedTorus;
@@ -30,6 +31,7 @@ pub(super) enum Round {
     Frustum(PreparedFrustum),
     Disc(PreparedDisc),
     Torus(PreparedTorus),
+    Quadric(PreparedQuadric),
 }
 
 impl Round {
@@ -38,6 +40,7 @@ impl Round {
             Shape::Frustum(frustum) => Self::Frustum(PreparedFrustum::new(frustum)),
             Shape::Disc(disc) => Self::Disc(PreparedDisc::new(disc)),
             Shape::Torus(torus) => Self::Torus(PreparedTorus::new(torus)),
+            Shape::Quadric(quadric) => Self::Quadric(PreparedQuadric::new(quadric)),
             _ => return None,
         })
     }
@@ -57,6 +60,7 @@ impl Round {
         match self {
             Self::Frustum(frustum) if frustum.is_capped => [frustum.interval(ray), NOWHERE],
             Self::Torus(torus) => torus.intervals(ray),
+            Self::Quadric(quadric) => quadric.intervals(ray),
             Self::Frustum(_) | Self::Disc(_) => [NOWHERE; MOST_INTERVALS],
         }
     }
@@ -67,6 +71,7 @@ impl Round {
             Self::Frustum(frustum) => frustum.spot(point),
             Self::Disc(disc) => disc.spot(point),
             Self::Torus(torus) => torus.spot(point),
+            Self::Quadric(quadric) => quadric.spot(point),
         }
     }
 
@@ -76,6 +81,7 @@ impl Round {
             Self::Frustum(frustum) => frustum.uv(point),
             Self::Disc(disc) => disc.uv(point),
             Self::Torus(torus) => torus.uv(point),
+            Self::Quadric(_) => PreparedQuadric::uv(point),
         }
     }
 
@@ -90,6 +96,7 @@ impl Round {
             }
             Self::Disc(disc) => (disc.center, disc.radius),
             Self::Torus(torus) => torus.sphere(),
+            Self::Quadric(quadric) => quadric.sphere(),
         }
     }
 
@@ -102,6 +109,7 @@ impl Round {
             }
             Self::Disc(disc) => disc.axis.around(disc.center, disc.radius),
             Self::Torus(torus) => torus.corners(),
+            Self::Quadric(quadric) => quadric.corners(),
         }
     }
 }

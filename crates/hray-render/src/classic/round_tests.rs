@@ -2,7 +2,7 @@
 
 use super::round::Round;
 use super::solid::Ray;
-use hray_core::{DVec3, Disc, Frustum, Shape, Torus};
+use hray_core::{DVec3, Disc, Frustum, Quadric, Shape, Torus};
 use proptest::prelude::*;
 use std::sync::Arc;
 
@@ -16,6 +16,10 @@ fn frustum(base: DVec3, top: DVec3, radii: [f64; 2], is_capped: bool) -> Shape {
 
 fn torus(center: DVec3, axis: DVec3, radius: f64, tube: f64) -> Shape {
     Shape::Torus(Arc::new(Torus { center, axis: axis.normalize(), radius, tube }))
+}
+
+fn quadric(square: DVec3, product: DVec3, linear: DVec3, constant: f64) -> Shape {
+    Shape::Quadric(Arc::new(Quadric { square, product, linear, constant }))
 }
 
 fn disc(center: DVec3, normal: DVec3, radius: f64, hole: f64) -> Shape {
@@ -37,6 +41,17 @@ fn outside(shape: &Shape, p: DVec3) -> f64 {
             let height = (p - torus.center).dot(torus.axis);
             let distance = (p - torus.center - torus.axis * height).length();
             libm::hypot(distance - torus.radius, height) - torus.tube
+        }
+        Shape::Quadric(quadric) => {
+            let Quadric { square: s, product: q, linear: l, constant } = **quadric;
+            let value =
+                s.dot(p * p) + q.dot(DVec3::new(p.x * p.y, p.x * p.z, p.y * p.z)) + l.dot(p) + constant;
+            let slope = DVec3::new(
+                2.0 * s.x * p.x + q.x * p.y + q.y * p.z,
+                2.0 * s.y * p.y + q.x * p.x + q.z * p.z,
+                2.0 * s.z * p.z + q.y * p.x + q.z * p.y,
+            );
+            value / (slope + l).length().max(1e-300)
         }
         _ => unreachable!(),
     }
@@ -78,9 +93,12 @@ fn direction() -> impl Strategy<Value = DVec3> {
 prop_compose! {
     fn solid()(
         center in vector(3.0), axis in direction(), length in 0.05..4.0f64, a in 0.0..2.0f64, b in 0.0..2.0f64,
-        kind in 0..4, thin in 0.01..0.99f64,
+        kind in 0..6, thin in 0.01..0.99f64, product in vector(1.0),
     ) -> Shape {
         match kind {
+            // Whatever comes, and an ellipsoid.
+            4 => quadric(center / 3.0, product, axis, thin - 0.5),
+            5 => quadric(center.abs() + 0.1, product * 0.1, axis, -length),
             0 => torus(center, axis, length, length * thin),
             1 => frustum(center, center + axis * length, [a.max(0.01); 2], true),
             2 => frustum(center, center + axis * length, [0.0, b.max(0.01)], true),
@@ -128,8 +146,8 @@ proptest! {
         let mut before = f64::NEG_INFINITY;
         for [enter, exit] in round(&shape).intervals(&ray) {
             if enter < exit {
-                prop_assert!(before < enter);
-                let middle = outside(&shape, ray.origin + ray.direction * (0.5 * (enter + exit)));
+                prop_assert!(before == f64::NEG_INFINITY || before < enter);
+                let middle = outside(&shape, ray.origin + ray.direction * (0.5 * (enter.max(-1e3) + exit.min(1e3))));
                 prop_assert!(middle < 1e-9, "{middle}");
                 before = exit;
             }
@@ -195,6 +213,7 @@ fn scaled(shape: &Shape, by: f64) -> Shape {
                 Torus { center: t.center * by, axis: t.axis, radius: t.radius * by, tube: t.tube * by };
             Shape::Torus(Arc::new(torus))
         }
+        Shape::Quadric(q) => quadric(q.square, q.product, q.linear * by, q.constant * by * by),
         _ => unreachable!(),
     }
 }
@@ -222,6 +241,20 @@ fn plain_cases() {
     let ring = round(&torus(DVec3::ZERO, DVec3::Y, 2.0, 0.5));
     assert_eq!(ring.intervals(&ray([9.0, 0.0, 0.0], [-1.0, 0.0, 0.0])), [[6.5, 7.5], [10.5, 11.5]]);
     assert_eq!(ring.hit(&ray([0.0, 9.0, 0.0], [0.0, -1.0, 0.0]), 0.0), None, "through the hole");
+    let bowl = round(&quadric(DVec3::new(1.0, 0.0, 1.0), DVec3::ZERO, DVec3::NEG_Y, 0.0));
+    let saddle = round(&quadric(DVec3::ZERO, DVec3::X, DVec3::ZERO, -1.0));
+    assert_eq!(bowl.hit(&ray([0.5, -3.0, 0.0], [0.0, 1.0, 0.0]), 0.0), Some(3.25), "along the axis");
+    assert_eq!(bowl.intervals(&ray([0.5, 9.0, 0.0], [0.0, -1.0, 0.0]))[0], [f64::NEG_INFINITY, 8.75]);
+    assert_eq!(bowl.hit(&ray([-4.0, 4.0, 0.0], [1.0, 0.0, 0.0]), 0.0), Some(2.0));
+    assert_eq!(bowl.hit(&ray([-4.0, -1.0, 0.0], [1.0, 0.0, 0.0]), 0.0), None);
+    assert_eq!(saddle.hit(&ray([0.5, 0.0, 0.0], [0.0, 1.0, 0.0]), 0.0), Some(2.0), "x y = 1");
+    let both = saddle.intervals(&ray([-4.0, -4.0, 0.0], [1.0, 1.0, 0.0]));
+    assert_eq!(both[0], [3.0, 5.0]);
+    let hollow = round(&quadric(DVec3::NEG_ONE, DVec3::ZERO, DVec3::ZERO, 1.0));
+    assert_eq!(
+        hollow.intervals(&ray([-4.0, 0.0, 0.0], [1.0, 0.0, 0.0])),
+        [[f64::NEG_INFINITY, 3.0], [5.0, f64::INFINITY]]
+    );
     let plate = round(&disc(DVec3::ZERO, DVec3::Y, 1.0, 0.5));
     assert_eq!(plate.hit(&ray([0.75, 2.0, 0.0], [0.0, -1.0, 0.0]), 0.0), Some(2.0));
     assert_eq!(plate.hit(&ray([0.25, 2.0, 0.0], [0.0, -1.0, 0.0]), 0.0), None);

@@ -119,7 +119,7 @@ impl Prepared {
                 let nearest = if thesis { NEAREST } else { 0.0 };
                 Self::Cuboid { min: cuboid.min, max: cuboid.max, nearest }
             }
-            Shape::Frustum(_) | Shape::Disc(_) | Shape::Torus(_) => {
+            Shape::Frustum(_) | Shape::Disc(_) | Shape::Torus(_) | Shape::Quadric(_) => {
                 let nearest = if thesis { NEAREST } else { 0.0 };
                 let shape = Arc::new(Round::new(shape)?);
                 let (middle, reach) = shape.sphere();

@@ -12,8 +12,8 @@ use crate::hry::sources::STANDARD_BASE;
 use crate::hry::syntax;
 use glam::DVec3;
 use hray_core::{
-    Camera, Cuboid, Disc, Frustum, Light, OrthographicCamera, PerspectiveCamera, Plane, Rgb, Shape, Sphere,
-    Torus, WindowCamera,
+    Camera, Cuboid, Disc, Frustum, Light, OrthographicCamera, PerspectiveCamera, Plane, Quadric, Rgb, Shape,
+    Sphere, Torus, WindowCamera,
 };
 use std::sync::Arc;
 
@@ -341,6 +341,20 @@ impl<'m, 'a> Fields<'m, 'a> {
                 self.less_than("tube", tube, radius)?;
                 let (center, axis) = (self.vector("center")?, self.vector("axis")?);
                 Shape::Torus(Arc::new(Torus { center, axis: unit(axis), radius, tube }))
+            }
+            "quadric" => {
+                let [square, product, linear] =
+                    [self.vector("square")?, self.vector("product")?, self.vector("linear")?];
+                let constant = self.number("constant")?;
+                if [square, product, linear].iter().all(|terms| *terms == DVec3::ZERO) {
+                    let message = "a quadric needs `square`, `product` or `linear`";
+                    let label = "without them it is nowhere 0, or everywhere";
+                    let error = Diagnostic::error("no-surface", message, self.span, label);
+                    return Err(Failure::new(error.with_help(
+                        "for a sphere of radius 2: quadric { square = (1, 1, 1), constant = -4 }",
+                    )));
+                }
+                Shape::Quadric(Arc::new(Quadric { square, product, linear, constant }))
             }
             name => return Err(internal(self.span, &format!("a shape `{name}` that is not made")).into()),
         };

@@ -239,6 +239,20 @@ pub const CONSTRUCTORS: &[Constructor] = &[
         ],
     },
     Constructor {
+        name: "quadric",
+        makes: Makes::Shape,
+        doc: "All points where a polynomial of the second degree is 0: cones, paraboloids, hyperboloids, saddles and more, \
+              without end unless something cuts them off. Inside is where the polynomial is negative.",
+        example: "quadric { square = (1, 0, 1), linear = (0, -1, 0) }",
+        fields: &[
+            with_default("square", T::Vec3, "(0, 0, 0)", "What x^2, y^2 and z^2 are multiplied by."),
+            with_default("product", T::Vec3, "(0, 0, 0)", "What x y, x z and y z are multiplied by."),
+            with_default("linear", T::Vec3, "(0, 0, 0)", "What x, y and z are multiplied by."),
+            with_default("constant", T::Number, "0", "What is added to all that."),
+            MATERIAL,
+        ],
+    },
+    Constructor {
         name: "mesh",
         makes: Makes::Shape,
         doc: "The triangles in a file: PLY, STL, OBJ, glTF 2.0 or GLB. A file of several parts gives all of them, each in \

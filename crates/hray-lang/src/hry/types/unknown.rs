@@ -29,7 +29,7 @@ const FOREIGN: &[Foreign] = &[
     Foreign(
         "blob",
         "",
-        "there is no blob yet; the shapes are `sphere`, `plane`, `cube`, `box`, `cylinder`, `cone`, `disc`, `torus`, `mesh` and `triangles`",
+        "there is no blob yet; the shapes are `sphere`, `plane`, `cube`, `box`, `cylinder`, `cone`, `disc`, `torus`, `quadric`, `mesh` and `triangles`",
     ),
     Foreign("boolean", "", "the type of `true` and `false` is `Bool`"),
     Foreign(
@@ -40,7 +40,7 @@ const FOREIGN: &[Foreign] = &[
     Foreign(
         "capsule",
         "",
-        "there is no capsule yet; the shapes are `sphere`, `plane`, `cube`, `box`, `cylinder`, `cone`, `disc`, `torus`, `mesh` and `triangles`",
+        "there is no capsule yet; the shapes are `sphere`, `plane`, `cube`, `box`, `cylinder`, `cone`, `disc`, `torus`, `quadric`, `mesh` and `triangles`",
     ),
     Foreign("case", "", "cases are written `match x { 0 -> a, _ -> b }`"),
     Foreign("ceiling", "ceil", ""),
@@ -101,12 +101,12 @@ const FOREIGN: &[Foreign] = &[
     Foreign(
         "height_field",
         "",
-        "there is no height_field yet; the shapes are `sphere`, `plane`, `cube`, `box`, `cylinder`, `cone`, `disc`, `torus`, `mesh` and `triangles`",
+        "there is no height_field yet; the shapes are `sphere`, `plane`, `cube`, `box`, `cylinder`, `cone`, `disc`, `torus`, `quadric`, `mesh` and `triangles`",
     ),
     Foreign(
         "heightfield",
         "",
-        "there is no heightfield yet; the shapes are `sphere`, `plane`, `cube`, `box`, `cylinder`, `cone`, `disc`, `torus`, `mesh` and `triangles`",
+        "there is no heightfield yet; the shapes are `sphere`, `plane`, `cube`, `box`, `cylinder`, `cone`, `disc`, `torus`, `quadric`, `mesh` and `triangles`",
     ),
     Foreign("id", "identity", ""),
     Foreign("int", "", "there is one kind of numbers; `floor x` drops what follows the point"),
@@ -115,7 +115,7 @@ const FOREIGN: &[Foreign] = &[
     Foreign(
         "isosurface",
         "",
-        "there is no isosurface yet; the shapes are `sphere`, `plane`, `cube`, `box`, `cylinder`, `cone`, `disc`, `torus`, `mesh` and `triangles`",
+        "there is no isosurface yet; the shapes are `sphere`, `plane`, `cube`, `box`, `cylinder`, `cone`, `disc`, `torus`, `quadric`, `mesh` and `triangles`",
     ),
     Foreign("join", "union", ""),
     Foreign("lambda", "", "a function is `\\x -> x + 1`"),
@@ -123,7 +123,7 @@ const FOREIGN: &[Foreign] = &[
     Foreign(
         "lathe",
         "",
-        "there is no lathe yet; the shapes are `sphere`, `plane`, `cube`, `box`, `cylinder`, `cone`, `disc`, `torus`, `mesh` and `triangles`",
+        "there is no lathe yet; the shapes are `sphere`, `plane`, `cube`, `box`, `cylinder`, `cone`, `disc`, `torus`, `quadric`, `mesh` and `triangles`",
     ),
     Foreign("left", "", "it is `-right`"),
     Foreign("len", "", "the number of elements is `count list`, the length of a vector `length v`"),
@@ -181,14 +181,14 @@ const FOREIGN: &[Foreign] = &[
     Foreign(
         "prism",
         "",
-        "there is no prism yet; the shapes are `sphere`, `plane`, `cube`, `box`, `cylinder`, `cone`, `disc`, `torus`, `mesh` and `triangles`",
+        "there is no prism yet; the shapes are `sphere`, `plane`, `cube`, `box`, `cylinder`, `cone`, `disc`, `torus`, `quadric`, `mesh` and `triangles`",
     ),
     Foreign("product", "", "a product is `fold (\\a b -> a * b) 1 list`"),
     Foreign("putstrln", "", "nothing can be printed from inside a scene"),
     Foreign(
         "pyramid",
         "",
-        "there is no pyramid yet; the shapes are `sphere`, `plane`, `cube`, `box`, `cylinder`, `cone`, `disc`, `torus`, `mesh` and `triangles`",
+        "there is no pyramid yet; the shapes are `sphere`, `plane`, `cube`, `box`, `cylinder`, `cone`, `disc`, `torus`, `quadric`, `mesh` and `triangles`",
     ),
     Foreign(
         "quad",
@@ -243,7 +243,7 @@ const FOREIGN: &[Foreign] = &[
     Foreign(
         "superellipsoid",
         "",
-        "there is no superellipsoid yet; the shapes are `sphere`, `plane`, `cube`, `box`, `cylinder`, `cone`, `disc`, `torus`, `mesh` and `triangles`",
+        "there is no superellipsoid yet; the shapes are `sphere`, `plane`, `cube`, `box`, `cylinder`, `cone`, `disc`, `torus`, `quadric`, `mesh` and `triangles`",
     ),
     Foreign("switch", "", "cases are written `match x { 0 -> a, _ -> b }`"),
     Foreign("tail", "", "all but the first element are `drop 1 list`"),
@@ -251,12 +251,12 @@ const FOREIGN: &[Foreign] = &[
     Foreign(
         "tetrahedron",
         "",
-        "there is no tetrahedron yet; the shapes are `sphere`, `plane`, `cube`, `box`, `cylinder`, `cone`, `disc`, `torus`, `mesh` and `triangles`",
+        "there is no tetrahedron yet; the shapes are `sphere`, `plane`, `cube`, `box`, `cylinder`, `cone`, `disc`, `torus`, `quadric`, `mesh` and `triangles`",
     ),
     Foreign(
         "text",
         "",
-        "there is no text yet; the shapes are `sphere`, `plane`, `cube`, `box`, `cylinder`, `cone`, `disc`, `torus`, `mesh` and `triangles`",
+        "there is no text yet; the shapes are `sphere`, `plane`, `cube`, `box`, `cylinder`, `cone`, `disc`, `torus`, `quadric`, `mesh` and `triangles`",
     ),
     Foreign(
         "texture",

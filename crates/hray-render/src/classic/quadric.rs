@@ -1,0 +1,147 @@
+//! Rays against a quadric, one at a time.
+
+use super::round::{MOST_INTERVALS, NOWHERE, Spot, nearest_to};
+use super::shapes::BOUND;
+use super::solid::Ray;
+use hray_core::{DMat3, DVec3, Quadric};
+
+/// f(p) = p · Q p + l · p + k, with what can be computed once.
+#[derive(Clone, Debug)]
+pub(super) struct PreparedQuadric {
+    form: Form,
+    /// The middle of an ellipsoid, and how far it reaches along each axis.
+    ellipsoid: Option<(DVec3, DVec3)>,
+}
+
+#[derive(Clone, Copy, Debug)]
+struct Form {
+    square: DMat3,
+    linear: DVec3,
+    constant: f64,
+}
+
+impl Form {
+    fn value(&self, p: DVec3) -> f64 {
+        p.dot(self.square * p + self.linear) + self.constant
+    }
+
+    fn gradient(&self, p: DVec3) -> DVec3 {
+        (self.square * p) * 2.0 + self.linear
+    }
+
+    /// The sum of the magnitudes of all terms: rounding moves the value by a few parts in 2^53 of it.
+    fn size(&self, p: DVec3) -> f64 {
+        let DMat3 { x_axis, y_axis, z_axis } = self.square;
+        let square = DMat3::from_cols(x_axis.abs(), y_axis.abs(), z_axis.abs());
+        p.abs().dot(square * p.abs() + self.linear.abs()) + self.constant.abs()
+    }
+}
+
+impl PreparedQuadric {
+    pub(super) fn new(quadric: &Quadric) -> Self {
+        let Quadric { square, product, linear, constant } = *quadric;
+        let [xy, xz, yz] = (product * 0.5).to_array();
+        let square = DMat3::from_cols(
+            DVec3::new(square.x, xy, xz),
+            DVec3::new(xy, square.y, yz),
+            DVec3::new(xz, yz, square.z),
+        );
+        let form = Form { square, linear, constant };
+        Self { form, ellipsoid: ellipsoid(&form) }
+    }
+
+    /// The distances between which the function is negative along a ray.
+    pub(super) fn intervals(&self, ray: &Ray) -> [[f64; 2]; MOST_INTERVALS] {
+        let middle = self.ellipsoid.map_or(DVec3::ZERO, |(middle, _)| middle);
+        let (from, near) = nearest_to(ray, middle);
+        let p = middle + near;
+        let d = ray.direction;
+        // a t² + 2 b t + c, counted from there.
+        let square_d = self.form.square * d;
+        let (a, b, c) =
+            (d.dot(square_d), square_d.dot(p) + 0.5 * d.dot(self.form.linear), self.form.value(p));
+        let (all, none) = ([[f64::NEG_INFINITY, f64::INFINITY], NOWHERE], [NOWHERE; MOST_INTERVALS]);
+        let discriminant = if a == 0.0 {
+            b * b
+        } else {
+            // The value at the vertex of the parabola: nothing large is cancelled there.
+            -a * self.form.value(p - d * (b / a))
+        };
+        if discriminant <= 0.0 || discriminant.is_nan() {
+            // A plane's or a point's both sides are alike; with no growth at all, all is as it is here.
+            let outside = if a == 0.0 { c >= 0.0 } else { a > 0.0 };
+            return if outside { none } else { all };
+        }
+        let q = -(b + discriminant.sqrt().copysign(b));
+        let (first, second) = (c / q, q / a);
+        let [low, high] = if first < second { [first, second] } else { [second, first] }.map(|t| from + t);
+        // With a of 0 one of them is infinite, on the side to which the function falls or rises for ever.
+        let between = if a == 0.0 { b > 0.0 } else { a > 0.0 };
+        if a == 0.0 {
+            let root = from + first;
+            return if between {
+                [[f64::NEG_INFINITY, root], NOWHERE]
+            } else {
+                [[root, f64::INFINITY], NOWHERE]
+            };
+        }
+        if between { [[low, high], NOWHERE] } else { [[f64::NEG_INFINITY, low], [high, f64::INFINITY]] }
+    }
+
+    pub(super) fn spot(&self, point: DVec3) -> Spot {
+        let gradient = self.form.gradient(point);
+        let steepness = gradient.length();
+        let rounding = BOUND * self.form.size(point);
+        if steepness == 0.0 || steepness.is_nan() {
+            // The tip of a cone.
+            return Spot { point, normal: DVec3::Y, bound: rounding.sqrt() };
+        }
+        let normal = gradient / steepness;
+        let moved = point - normal * (self.form.value(point) / steepness);
+        // Near a tip the function is no longer steep.
+        let curve = self.form.square.x_axis.abs().max(self.form.square.y_axis.abs());
+        let curve = curve.max(self.form.square.z_axis.abs()).max_element();
+        let bound =
+            (rounding / steepness).min(if curve > 0.0 { (rounding / curve).sqrt() } else { f64::INFINITY });
+        let size = moved.x.abs() + moved.y.abs() + moved.z.abs();
+        Spot { point: moved, normal, bound: 2.0 * bound + BOUND * size }
+    }
+
+    pub(super) fn uv(point: DVec3) -> [f64; 2] {
+        [point.x, point.z]
+    }
+
+    pub(super) fn sphere(&self) -> (DVec3, f64) {
+        self.ellipsoid.map_or((DVec3::ZERO, f64::INFINITY), |(middle, reach)| (middle, reach.length()))
+    }
+
+    pub(super) fn corners(&self) -> [DVec3; 2] {
+        self.ellipsoid.map_or([DVec3::NEG_INFINITY, DVec3::INFINITY], |(middle, reach)| {
+            // A little more, for what rounding makes of both.
+            let reach = reach * (1.0 + 1e-6) + middle.abs() * 1e-9;
+            [middle - reach, middle + reach]
+        })
+    }
+}
+
+/// Where the function is negative in an ellipsoid alone: its middle and its reach.
+fn ellipsoid(form: &Form) -> Option<(DVec3, DVec3)> {
+    let q = form.square;
+    let minor = q.x_axis.x * q.y_axis.y - q.x_axis.y * q.x_axis.y;
+    // Sylvester's criterion, and nothing so flat that its inverse is worth nothing.
+    let trace = q.x_axis.x + q.y_axis.y + q.z_axis.z;
+    let determinant = q.determinant();
+    if !(q.x_axis.x > 0.0 && minor > 0.0 && determinant > 1e-9 * trace * trace * trace) {
+        return None;
+    }
+    let inverse = q.inverse();
+    let middle = -(inverse * form.linear) * 0.5;
+    let depth = -form.value(middle);
+    if depth <= 0.0 {
+        // Nothing, or a point.
+        return Some((middle, DVec3::ZERO));
+    }
+    let reach = |variance: f64| (depth * variance).sqrt();
+    let reach = DVec3::new(reach(inverse.x_axis.x), reach(inverse.y_axis.y), reach(inverse.z_axis.z));
+    (middle.is_finite() && reach.is_finite()).then_some((middle, reach))
+}
