@@ -182,9 +182,14 @@ impl Leaves for Meet<'_> {
     }
 }
 
-/// The box around a leaf in the world.
+/// The box around a leaf in the world; all of space where it has none.
 fn of_leaf(geometry: &Geometry, leaf: u32) -> Corners {
-    let leaf = leaf as usize;
+    let corners = corners(geometry, leaf as usize);
+    // An infinite box that was turned has corners that are no numbers, and what is joined with those would forget them.
+    if corners.iter().all(|corner| corner.is_finite()) { corners } else { EVERYWHERE }
+}
+
+fn corners(geometry: &Geometry, leaf: usize) -> Corners {
     let placement = geometry.placement(leaf);
     match geometry.shape(leaf) {
         Prepared::Sphere { center, squared_radius, .. } => {

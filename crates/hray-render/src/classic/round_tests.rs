@@ -182,6 +182,7 @@ proptest! {
     }
 
     #[test]
+    /// By more than a part of what the tree widens boxes by.
     fn nothing_reaches_out_of_the_box(shape in solid(), origin in vector(9.0), target in vector(3.0)) {
         prop_assume!(origin.distance(target) > 0.1);
         let ray = Ray { origin, direction: (target - origin).normalize() };
@@ -189,7 +190,7 @@ proptest! {
         let [min, max] = prepared.corners();
         if let Some(distance) = prepared.hit(&ray, 0.0) {
             let p = ray.origin + ray.direction * distance;
-            prop_assert!(p.cmpge(min - 1e-9).all() && p.cmple(max + 1e-9).all(), "{p} {min} {max}");
+            prop_assert!(p.cmpge(min - 1e-7).all() && p.cmple(max + 1e-7).all(), "{p} {min} {max}");
         }
     }
 

@@ -30,7 +30,7 @@ fn meshes_are_met_where_the_reference_has_them() {
         let n = &mut Numbers(seed * 31);
         let mesh = of(soup(n, 30), &showing(show));
         let squeezed = DAffine3::from_scale(n.point(0.5) + 1.0) * turned();
-        vec![placed(of(soup(n, 20), &showing(show)), squeezed), mesh, random_leaf(n, show)]
+        vec![placed(of(soup(n, 20), &showing(show)), squeezed), mesh, random_leaf(n, show, false)]
     };
     compare(scene, &[Integrator::Classic], 1e-5);
 }
@@ -40,7 +40,7 @@ fn meshes_are_met_where_the_reference_has_them() {
 fn many_objects_are_met_where_the_reference_has_them() {
     let scene = |seed, show: [Input; 3]| {
         let n = &mut Numbers(seed * 13);
-        let mut primitives: Vec<Primitive> = (0..20).map(|_| random_leaf(n, show)).collect();
+        let mut primitives: Vec<Primitive> = (0..20).map(|_| random_leaf(n, show, false)).collect();
         for _ in 0..20 {
             primitives.push(of(sphere(n.point(1.5), n.between(0.05, 0.3)), &showing(show)));
         }

@@ -1,6 +1,6 @@
 //! A tracer of obvious code: one ray, every crossing with every surface, and for solids whether points are inside.
 
-use hray_core::{CsgOperation, DAffine3, DVec3, Frustum, Primitive, Shape, Torus};
+use hray_core::{CsgOperation, DAffine3, DVec3, Frustum, Mesh, Primitive, Quadric, Shape, Torus};
 
 /// Where a ray meets something: distance, point, outward normal.
 #[derive(Clone, Copy, Debug)]
@@ -73,6 +73,22 @@ fn crossings(primitive: &Primitive, outer: DAffine3, origin: DVec3, direction: D
             }
             found
         }
+        Shape::Quadric(quadric) => {
+            // The values at three places tell the parabola.
+            let at = |t: f64| quadric_value(quadric, o + d * t);
+            let (c, sum, difference) = (at(0.0), at(1.0) + at(-1.0), at(1.0) - at(-1.0));
+            let (a, b) = (0.5 * sum - c, 0.5 * difference);
+            let discriminant = b * b - 4.0 * a * c;
+            if discriminant <= 0.0 {
+                return Vec::new();
+            }
+            // Differences are exact here, whatever the step.
+            let along =
+                |p: DVec3, axis: DVec3| quadric_value(quadric, p + axis) - quadric_value(quadric, p - axis);
+            let slope = |p: DVec3| DVec3::from(DVec3::AXES.map(|axis| along(p, axis)));
+            let roots = [-discriminant.sqrt(), discriminant.sqrt()].map(|root| (root - b) / (2.0 * a));
+            roots.map(|t| (t, slope(o + d * t))).to_vec()
+        }
         Shape::Disc(disc) => {
             let t = (disc.center - o).dot(disc.normal) / d.dot(disc.normal);
             let from = (o + d * t).distance(disc.center);
@@ -131,6 +147,23 @@ fn crossings(primitive: &Primitive, outer: DAffine3, origin: DVec3, direction: D
     found.into_iter().map(hit).collect()
 }
 
+fn quadric_value(quadric: &Quadric, p: DVec3) -> f64 {
+    let mixed = DVec3::new(p.x * p.y, p.x * p.z, p.y * p.z);
+    quadric.square.dot(p * p) + quadric.product.dot(mixed) + quadric.linear.dot(p) + quadric.constant
+}
+
+/// How much of what is around a point a mesh covers: all, 4 pi, from inside. A. van Oosterom and J. Strackee, "The Solid
+/// Angle of a Plane Triangle", IEEE Transactions on Biomedical Engineering 30(2), 1983.
+fn solid_angle(mesh: &Mesh, p: DVec3) -> f64 {
+    let of = |triangle: &[u32; 3]| {
+        let [a, b, c] =
+            triangle.map(|vertex| DVec3::from(mesh.positions()[vertex as usize].map(f64::from)) - p);
+        let [la, lb, lc] = [a, b, c].map(DVec3::length);
+        2.0 * libm::atan2(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb)
+    };
+    mesh.triangles().iter().map(of).sum()
+}
+
 /// The distance from the surface, negative inside, and the normal there.
 fn from_torus(torus: &Torus, p: DVec3) -> (f64, DVec3) {
     let height = (p - torus.center).dot(torus.axis);
@@ -186,8 +219,10 @@ fn is_inside(primitive: &Primitive, outer: DAffine3, point: DVec3) -> bool {
     match &primitive.shape {
         Shape::Sphere(sphere) => p.distance(sphere.center) < sphere.radius,
         Shape::Plane(plane) => plane.normal.dot(p) + plane.offset < 0.0,
-        // Not parts of solids.
-        Shape::Mesh(_) | Shape::Disc(_) => false,
+        // Not a part of solids.
+        Shape::Disc(_) => false,
+        Shape::Mesh(mesh) => solid_angle(mesh, p) > 2.0 * std::f64::consts::PI,
+        Shape::Quadric(quadric) => quadric_value(quadric, p) < 0.0,
         Shape::Torus(torus) => from_torus(torus, p).0 < 0.0,
         Shape::Frustum(frustum) => {
             let (along, distance, _) = in_frustum(frustum, p);

@@ -7,7 +7,7 @@ use crate::common::{
 };
 use hray_core::{
     Background, Camera, Csg, CsgOperation, DAffine3, DMat3, DVec3, Description, Disc, Light, Material, Mesh,
-    Primitive, Rgb, Shape, Texture,
+    Primitive, Quadric, Rgb, Shape, Texture,
 };
 use std::sync::Arc;
 
@@ -20,6 +20,10 @@ fn scaled(shape: &Shape, s: f64) -> Shape {
         Shape::Cuboid(a) => cuboid(a.min * s, a.max * s),
         Shape::Frustum(a) => frustum(a.base * s, a.top * s, a.radii.map(|radius| radius * s)),
         Shape::Torus(a) => torus(a.center * s, a.axis, a.radius * s, a.tube * s),
+        Shape::Quadric(a) => {
+            let (linear, constant) = (a.linear * s, a.constant * s * s);
+            Shape::Quadric(Arc::new(Quadric { linear, constant, ..**a }))
+        }
         Shape::Disc(a) => {
             let disc =
                 Disc { center: a.center * s, normal: a.normal, radius: a.radius * s, hole: a.hole * s };
@@ -81,6 +85,15 @@ fn everything() -> Description {
         of(sphere(v(0.1, -0.5, 0.9), 0.3), &mirror()),
         of(torus(v(0.6, 0.9, 0.2), v(0.2, 1.0, 0.6), 0.35, 0.1), &half),
         of(frustum(v(-0.9, -0.9, 1.0), v(-0.8, -0.1, 1.1), [0.25, 0.05]), &half),
+        of(
+            Shape::Quadric(Arc::new(Quadric {
+                square: v(4.0, 3.0, 4.0),
+                product: v(0.5, 0.2, -0.3),
+                linear: v(6.0, 1.0, -5.0),
+                constant: 3.5,
+            })),
+            &half,
+        ),
         of(
             Shape::Disc(Arc::new(Disc {
                 center: v(0.7, -0.7, 1.1),

@@ -1,12 +1,13 @@
 //! Where shapes are hit.
 
 use crate::common::{
-    NORMAL, Numbers, OBJECT, WORLD, camera, colors, cuboid, description, directions, frustum, middle, of,
-    placed, plane, showing, shown, sphere, torus, v,
+    NORMAL, Numbers, OBJECT, WORLD, ball, camera, colors, cuboid, description, directions, frustum, middle,
+    of, placed, plane, showing, shown, sphere, torus, v,
 };
 use crate::reference::nearest;
-use hray_core::{DAffine3, DMat3, DVec3, Integrator, Primitive, Rgb};
+use hray_core::{DAffine3, DMat3, DVec3, Integrator, Primitive, Quadric, Rgb, Shape};
 use hray_expr::Input;
+use std::sync::Arc;
 
 const SIDE: i64 = 24;
 
@@ -18,8 +19,9 @@ fn random_placement(n: &mut Numbers) -> DAffine3 {
     DAffine3 { matrix3: matrix, translation: n.point(1.0) }
 }
 
-pub(crate) fn random_leaf(n: &mut Numbers, show: [Input; 3]) -> Primitive {
-    let shape = match n.below(8) {
+/// `meshes` may be among them.
+pub(crate) fn random_leaf(n: &mut Numbers, show: [Input; 3], meshes: bool) -> Primitive {
+    let shape = match n.below(if meshes { 10 } else { 9 }) {
         0 | 1 => sphere(n.point(0.8), n.between(0.3, 1.2)),
         2 | 3 => {
             let min = n.point(0.8) - 0.4;
@@ -34,7 +36,14 @@ pub(crate) fn random_leaf(n: &mut Numbers, show: [Input; 3]) -> Primitive {
             let base = n.point(0.8);
             frustum(base, base + n.point(1.2), [n.between(0.2, 1.0), n.between(0.0, 0.6)])
         }
-        _ => torus(n.point(0.8), n.point(1.0), n.between(0.6, 1.2), n.between(0.1, 0.5)),
+        7 => Shape::Quadric(Arc::new(Quadric {
+            square: n.point(1.0),
+            product: n.point(0.6),
+            linear: n.point(0.8),
+            constant: n.between(-0.8, 0.4),
+        })),
+        8 => torus(n.point(0.8), n.point(1.0), n.between(0.6, 1.2), n.between(0.1, 0.5)),
+        _ => ball(n.point(0.8), n.between(0.4, 1.2), 1, false),
     };
     let primitive = of(shape, &showing(show));
     if n.below(2) == 0 { placed(primitive, random_placement(n)) } else { primitive }
@@ -76,7 +85,7 @@ pub(crate) fn compare(
 fn hits_are_where_the_reference_has_them() {
     let scene = |seed, show| {
         let n = &mut Numbers(seed);
-        (0..1 + n.below(5)).map(|_| random_leaf(n, show)).collect()
+        (0..1 + n.below(5)).map(|_| random_leaf(n, show, false)).collect()
     };
     compare(scene, &[Integrator::Classic, Integrator::Classic2005], 1e-9);
 }
@@ -135,7 +144,7 @@ fn a_picture_of_everything_is_the_same_with_any_number_of_threads() {
     use hray_core::NoiseTables;
     use hray_render::{Control, Settings, render};
     let n = &mut Numbers(5);
-    let primitives = (0..30).map(|_| random_leaf(n, WORLD)).collect();
+    let primitives = (0..30).map(|_| random_leaf(n, WORLD, false)).collect();
     let description = description(80, primitives, Vec::new());
     let of = |threads| {
         let settings =

@@ -18,7 +18,7 @@ fn csg(operation: CsgOperation, a: Primitive, b: Primitive) -> Primitive {
 
 fn random_solid(n: &mut Numbers, depth: usize, show: [Input; 3]) -> Primitive {
     if depth == 0 || n.below(4) == 0 {
-        return random_leaf(n, show);
+        return random_leaf(n, show, true);
     }
     let operation = [CsgOperation::Union, CsgOperation::Intersection, CsgOperation::Difference][n.below(3)];
     let a = random_solid(n, depth - 1, show);
