@@ -462,6 +462,10 @@ fn command(doc: &str, time: f64, width: Option<u32>, height: Option<u32>) -> Val
     let path = if is_plain { doc.to_owned() } else { format!("'{}'", doc.replace('\'', r"'\''")) };
     let path = if doc.starts_with('-') { format!("./{path}") } else { path };
     let mut command = format!("hray render {path}");
+    // What it imports may lie beside its folder; the command is run in the one that is open.
+    if doc.contains('/') {
+        command.push_str(" --root .");
+    }
     if let (Some(width), Some(height)) = (width, height) {
         command.push_str(&format!(" --size {width}x{height}"));
     }

@@ -3,6 +3,7 @@
 import type { EditorView } from "@codemirror/view";
 import { Documents } from "./documents";
 import { download, fill, h, icon, iconButton, icons, keyName } from "./dom";
+import { Gesture } from "./editor/gesture";
 import { Editor, readOnlyView } from "./editor/editor";
 import type { Host } from "./editor/host";
 import { EngineAway, explainError, type Engine } from "./engine/engine";
@@ -43,6 +44,8 @@ export class Studio implements Host {
   /** The last picture that came to its end. */
   private complete: RenderState = { is: "idle" };
   private explaining = 0;
+  /** Whether a picture is on its way to a file. */
+  private rendering = false;
   private bannerActions = new Map<string, HTMLElement>();
 
   constructor(
@@ -143,7 +146,7 @@ export class Studio implements Host {
   goTo(definition: Definition): void {
     if (definition.doc === null) this.openPeek(definition);
     else if (definition.doc === this.documents.current.name) this.editor.select(definition.from, definition.to);
-    else void this.documents.open(definition.doc).then((opened) => opened && this.editor.select(definition.from, definition.to));
+    else void this.documents.open(definition.doc).then((opened) => opened && this.selectOnDisk(definition));
   }
 
   pickColour(view: EditorView, at: { from: number; to: number }): void {
@@ -151,8 +154,7 @@ export class Studio implements Host {
     const end = view.coordsAtPos(at.to);
     if (!spot || !end) return;
     const color = (at as { color?: Colour }).color ?? [0, 0, 0];
-    let { to } = at;
-    const { from } = at;
+    const gesture = new Gesture(view, at.from, at.to);
     let busy = false;
     let next: Colour | null = null;
     const write = async (wanted: Colour) => {
@@ -162,15 +164,20 @@ export class Studio implements Host {
       while (next) {
         const now: Colour = next;
         next = null;
-        const texts = await this.ask("present", { from, to, color: now });
-        const text = texts?.[0];
-        if (text === undefined || text === view.state.sliceDoc(from, to)) continue;
-        view.dispatch({ changes: { from, to, insert: text }, selection: { anchor: from + text.length }, userEvent: "input.colour" });
-        to = from + text.length;
+        const { span } = gesture;
+        if (!span) break;
+        const texts = await this.ask("present", { from: span.from, to: span.to, color: now });
+        if (texts?.[0] !== undefined) gesture.set(texts[0]);
       }
       busy = false;
+      if (closed) gesture.end(true);
     };
-    openPicker(new DOMRect(spot.left, spot.top, end.right - spot.left, spot.bottom - spot.top), color, (wanted) => void write(wanted), () => undefined);
+    let closed = false;
+    const close = () => {
+      closed = true;
+      if (!busy) gesture.end(true);
+    };
+    openPicker(new DOMRect(spot.left, spot.top, end.right - spot.left, spot.bottom - spot.top), color, (wanted) => void write(wanted), close);
   }
 
   problems(): readonly Problem[] {
@@ -203,6 +210,7 @@ export class Studio implements Host {
   // --- Text to engine ---
 
   private textChanged(byUser: boolean): void {
+    this.explainPanel?.stale();
     this.documents.edited(byUser);
     this.edited = true;
     queueMicrotask(() => this.flushEdit());
@@ -221,6 +229,10 @@ export class Studio implements Host {
     this.edited = true;
     this.flushEdit();
     this.sendView();
+  }
+
+  get time(): number {
+    return this.pane.time;
   }
 
   sendView(): void {
@@ -255,6 +267,7 @@ export class Studio implements Host {
         break;
       case "frame":
         if (event.doc !== current.name) return;
+        this.explainPanel.stale();
         this.pane.handle(event);
         break;
       case "disk":
@@ -265,7 +278,14 @@ export class Studio implements Host {
         break;
       default:
         this.pane.handle(event);
+        if (event.event === "done") this.explainAgain();
     }
+  }
+
+  /** The pixel that is explained, of the picture that has just become complete. */
+  private explainAgain(): void {
+    const { pixel } = this.explainPanel;
+    if (pixel && this.selected() === "pixel" && !this.dock.classList.contains("closed") && !this.pane.timeline.playing) void this.explainPixel(...pixel, false);
   }
 
   private refreshSpots(): void {
@@ -279,6 +299,7 @@ export class Studio implements Host {
 
   private setProblems(items: Problem[]): void {
     const had = this.items.length;
+    const erred = this.items.some((problem) => problem.severity === "error");
     this.items = items;
     const here = items.filter((problem) => !problem.file || problem.file === this.documents?.current.name);
     this.editor.setProblems(here, (problem, index) => this.applyFix(problem, index));
@@ -295,7 +316,7 @@ export class Studio implements Host {
     );
     if (items.length > 0) {
       this.words.announce(`${plural(errors, "error")}, ${plural(warnings, "warning")}. ${items[0]?.message ?? ""}`);
-      if (errors > 0 && this.dock.classList.contains("closed") && this.dock.dataset["folded"] !== "true") this.showTab("problems", true);
+      if (errors > 0 && !erred && this.dock.dataset["folded"] !== "true") this.showTab("problems", true);
     } else if (had > 0) {
       this.words.announce("No problems any more.");
       if (this.selected() === "problems") this.openDock(false, false);
@@ -402,7 +423,7 @@ export class Studio implements Host {
 
   private goToProblem(problem: Problem): void {
     if (problem.file && problem.file !== this.documents.current.name) {
-      void this.documents.open(problem.file).then((opened) => opened && this.editor.select(problem.from, problem.to));
+      void this.documents.open(problem.file).then((opened) => opened && this.selectOnDisk(problem));
     } else {
       this.editor.select(problem.from, problem.to, false);
     }
@@ -415,19 +436,23 @@ export class Studio implements Host {
     if (next) {
       this.editor.select(next.from, next.from);
       this.showTab("problems", true);
-    } else this.say("There are no problems.");
+    } else if (this.items[0]) this.goToProblem(this.items[0]);
+    else this.say("There are no problems.");
   }
 
-  private async explainPixel(x: number, y: number): Promise<void> {
+  private async explainPixel(x: number, y: number, asked = true): Promise<void> {
     const turn = ++this.explaining;
-    this.showTab("pixel", true);
-    this.explainPanel.waiting(x, y);
+    if (asked) {
+      this.showTab("pixel", true);
+      this.explainPanel.waiting(x, y);
+    }
     this.flushEdit();
     const { name, version } = this.documents.current;
     try {
       const explanation = await this.engine.request("explain", { doc: name, version, x, y, time: this.pane.time });
-      if (turn !== this.explaining) return;
+      if (turn !== this.explaining || version !== this.documents.current.version) return;
       this.explainPanel.show(explanation);
+      if (!asked) return;
       const place = explanation.object?.place;
       if (place && this.isHere(place)) await this.jump(place, false);
       this.words.announce(explanation.object ? `Pixel ${x}, ${y}: ${explanation.object.kind}${place ? `, line ${place.line}` : ""}` : `Pixel ${x}, ${y}: background`);
@@ -440,9 +465,14 @@ export class Studio implements Host {
     return place.path === this.documents.current.name;
   }
 
+  /** Selects what the engine found in a file that was not shown. */
+  private selectOnDisk({ from, to }: { from: number; to: number }): void {
+    this.editor.select(this.documents.fromDisk(from), this.documents.fromDisk(to));
+  }
+
   private async jump(place: Place, focus: boolean): Promise<void> {
-    if (!this.isHere(place) && !(await this.documents.open(place.path))) return;
-    this.editor.select(place.from, place.to, focus);
+    if (this.isHere(place)) this.editor.select(place.from, place.to, focus);
+    else if (await this.documents.open(place.path)) this.selectOnDisk(place);
   }
 
   // --- Read-only texts over the editor ---
@@ -523,11 +553,20 @@ export class Studio implements Host {
   private async savePicture(format: string): Promise<void> {
     this.flushEdit();
     const { name, version } = this.documents.current;
+    if (this.rendering) {
+      this.say("A picture is being rendered to be saved. One at a time.");
+      return;
+    }
+    this.rendering = true;
+    const late = setTimeout(() => this.say("Rendering the picture to save it; it comes as a download."), 400);
     try {
       const file = await this.engine.request("render-file", { doc: name, version, time: this.pane.time, format });
       download(file.name, file.mime, file.bytes as Uint8Array<ArrayBuffer>);
     } catch (error) {
       this.fail(error);
+    } finally {
+      clearTimeout(late);
+      this.rendering = false;
     }
   }
 
@@ -547,6 +586,9 @@ export class Studio implements Host {
       const { command } = await this.engine.request("command", { doc: name, time: this.pane.time, width: null, height: null });
       const dialog = openDialog("This view as a command line", { class: "narrow" });
       const field = h("pre", { class: "command", tabindex: 0 }, command);
+      const { untitled } = this.documents.current;
+      if (untitled) dialog.body.append(h("p", { class: "quiet" }, "This scene has no file yet: save it first, under this name."));
+      else if (this.documents.dirty) dialog.body.append(h("p", { class: "quiet" }, "The text is not saved yet; the command renders what was saved last."));
       const copy = h(
         "button",
         {
@@ -570,10 +612,13 @@ export class Studio implements Host {
     try {
       const fragment = await encodeShare(this.editor.text);
       history.replaceState(null, "", fragment);
+      // A reload shows what is typed from now on, and not the link again.
+      sessionStorage.setItem("hray:shared", fragment);
       await navigator.clipboard.writeText(location.href);
       this.say("The link is on the clipboard. It carries the whole scene.");
-    } catch {
-      this.say("The link is in the address bar. It carries the whole scene.");
+    } catch (error) {
+      if (location.hash.startsWith("#s=") && !(error instanceof Error && error.message.startsWith("This text"))) this.say("The link is in the address bar. It carries the whole scene.");
+      else this.fail(error);
     }
   }
 

@@ -23,20 +23,31 @@ interface Document {
   saved: string;
   /** Grows with each change of any document of this page. */
   version: number;
+  /** The text of its file as it was read, where that has other line ends than the editor's. */
+  raw: string | null;
   /** What is on disk, where that is neither what the text is based on nor the text itself. */
   conflict: Conflict | null;
 }
 
 const KEEP_AFTER = 120;
 
+/** A text as the editor has it: with one kind of line end. */
+function plain(text: string): string;
+function plain(text: string | null): string | null;
+function plain(text: string | null): string | null {
+  return text === null ? null : text.replace(/\r\n?/g, "\n");
+}
+
 export class Documents {
-  current: Document = { name: "", untitled: true, disk: null, saved: "", version: 0, conflict: null };
+  current: Document = { name: "", untitled: true, disk: null, saved: "", version: 0, raw: null, conflict: null };
   private drafts: Drafts | null = null;
   private root = "";
   private timer = 0;
   private versions = 0;
   /** Editors as they were left, so that undo works when one comes back. */
   private readonly left = new Map<string, EditorState>();
+  /** The moments at which they were left. */
+  private readonly times = new Map<string, number>();
   private saving: Promise<unknown> = Promise.resolve();
 
   constructor(private readonly studio: Studio) {
@@ -62,7 +73,8 @@ export class Documents {
     sessionStorage.setItem("hray:root", this.root);
     if (before) {
       const mine = (await this.drafts.all(this.root)).find((draft) => draft.tab === tab && draft.doc === before);
-      if (before.startsWith("untitled-")) {
+      const known = hello.files.some((file) => (typeof file === "string" ? file : file.path) === before);
+      if (before.startsWith("untitled-") && !known) {
         if (mine) {
           this.showDraft(mine);
           return;
@@ -122,16 +134,31 @@ export class Documents {
     const { name } = this.current;
     if (!name) return;
     this.left.set(name, this.studio.editor.state);
+    this.times.set(name, this.studio.time);
     if (name !== next) this.studio.send("close", { doc: name });
   }
 
-  private show(document: Omit<Document, "version">, text: string): void {
+  /** Where an offset into a file is in the text of the editor. */
+  fromDisk(offset: number): number {
+    const { raw } = this.current;
+    return raw === null ? offset : plain(raw.slice(0, offset)).length;
+  }
+
+  /** Writes a file, with the line ends that it had. */
+  private store(doc: string, text: string, disk: string | null): Promise<{ disk: string }> {
+    const { raw } = this.current;
+    const end = raw === null ? "\n" : raw.includes("\r\n") ? "\r\n" : "\r";
+    return this.studio.engine.request("save", { doc, text: end === "\n" ? text : text.replaceAll("\n", end), disk });
+  }
+
+  private show(document: Omit<Document, "version" | "raw"> & { raw?: string | null }, text: string): void {
     this.leave(document.name);
-    this.current = { ...document, version: ++this.versions };
+    this.studio.banner("found", null);
+    this.current = { raw: null, ...document, version: ++this.versions };
     sessionStorage.setItem("hray:doc", document.name);
     const left = this.left.get(document.name);
     this.studio.editor.show(left && left.doc.toString() === text ? left : text);
-    this.studio.documentShown(0);
+    this.studio.documentShown(this.times.get(document.name) ?? 0);
     this.tellConflict();
   }
 
@@ -157,13 +184,15 @@ export class Documents {
       this.studio.fail(error);
       return false;
     }
-    if (!mine || mine.text === file.text) {
+    const text = plain(file.text);
+    const raw = text === file.text ? null : file.text;
+    if (!mine || mine.text === text) {
       if (mine) drafts.drop(this.root, mine.doc, mine.tab);
-      this.show({ name: file.path, untitled: false, disk: file.disk, saved: file.text, conflict: null }, file.text);
+      this.show({ name: file.path, untitled: false, disk: file.disk, saved: text, raw, conflict: null }, text);
       return true;
     }
     const changed = mine.disk !== file.disk;
-    this.show({ name: file.path, untitled: false, disk: mine.disk, saved: file.text, conflict: changed ? { disk: file.disk, text: file.text } : null }, mine.text);
+    this.show({ name: file.path, untitled: false, disk: mine.disk, saved: text, raw, conflict: changed ? { disk: file.disk, text } : null }, mine.text);
     if (mine.tab !== drafts.tab) {
       drafts.drop(this.root, mine.doc, mine.tab);
       this.keep();
@@ -173,7 +202,7 @@ export class Documents {
       this.studio.words.say(`Here is the text that was not saved yet, from ${when}.`, {
         label: "Show the file instead",
         run: () => {
-          if (this.current.name === file.path) this.studio.editor.replace(file.text);
+          if (this.current.name === file.path) this.studio.editor.replace(text);
         },
       });
     }
@@ -313,11 +342,15 @@ export class Documents {
     if (current.conflict) return this.settle();
     const text = studio.editor.text;
     try {
-      const { disk } = await studio.engine.request("save", { doc: current.name, text, disk: current.disk });
-      this.saved(text, disk);
+      const { disk } = await this.store(current.name, text, current.disk);
+      this.saved(current, text, disk);
     } catch (error) {
       if (error instanceof EngineError && error.conflict) {
-        current.conflict = error.conflict;
+        current.conflict = { ...error.conflict, text: plain(error.conflict.text) };
+        if (this.current !== current) {
+          studio.say(`${current.name} was not saved: it was changed on disk as well. Its text is kept; open it to look at both.`);
+          return;
+        }
         this.tellConflict();
         return this.settle();
       }
@@ -325,15 +358,18 @@ export class Documents {
     }
   }
 
-  private saved(text: string, disk: string): void {
-    const { current, studio } = this;
+  /** A document is saved, which need not be the one that is shown by now. */
+  private saved(current: Document, text: string, disk: string): void {
+    const { studio } = this;
     current.disk = disk;
     current.saved = text;
     current.conflict = null;
-    this.tellConflict();
-    studio.banner("found", null);
-    this.keep();
-    studio.showDocument();
+    if (this.current === current) {
+      this.tellConflict();
+      studio.banner("found", null);
+      this.keep();
+      studio.showDocument();
+    } else this.drafts?.drop(this.root, current.name);
     studio.words.announce(`Saved ${current.name}.`);
     studio.words.say(`Saved ${current.name}.`);
   }
@@ -349,19 +385,18 @@ export class Documents {
     });
     if (path === null) return;
     const text = studio.editor.text;
-    const before = current.name;
     try {
       const known = path === current.name ? current.disk : null;
-      const { disk } = await studio.engine.request("save", { doc: path, text, disk: known });
-      this.move(path, text, disk, before);
+      const { disk } = await this.store(path, text, known);
+      this.move(path, text, disk, current);
     } catch (error) {
       if (error instanceof EngineError && error.conflict) {
-        const resolution = await openConflict(path, text, error.conflict.text);
+        const resolution = await openConflict(path, text, plain(error.conflict.text), `There is ${path} already`, "Write mine over it");
         if (resolution === "mine") {
           if (error.conflict.text !== null) await this.shelve(error.conflict.text);
           try {
-            const { disk } = await studio.engine.request("save", { doc: path, text, disk: error.conflict.disk });
-            this.move(path, text, disk, before);
+            const { disk } = await this.store(path, text, error.conflict.disk);
+            this.move(path, text, disk, current);
           } catch (again) {
             studio.fail(again);
           }
@@ -378,20 +413,27 @@ export class Documents {
   }
 
   /** The document has a file, or another one, from now on. */
-  private move(path: string, text: string, disk: string, before: string): void {
+  private move(path: string, text: string, disk: string, from: Document): void {
     const { studio } = this;
+    const before = from.name;
+    if (this.current !== from) {
+      // Another document is shown by now.
+      this.drafts?.drop(this.root, before);
+      studio.say(`Saved ${path}.`);
+      return;
+    }
     if (path !== before) {
       this.drafts?.drop(this.root, before);
       this.left.delete(before);
       studio.send("close", { doc: before });
-      this.current = { name: path, untitled: false, disk, saved: text, version: ++this.versions, conflict: null };
+      this.current = { ...from, name: path, untitled: false, disk, saved: text, version: ++this.versions, conflict: null };
       sessionStorage.setItem("hray:doc", path);
       studio.sendAll();
       // From now on the engine tells when the file changes.
       void studio.engine.request("open", { path }).then((file) => this.onDisk(file.path, file.disk, file.text), () => undefined);
     }
     this.current.untitled = false;
-    this.saved(text, disk);
+    this.saved(this.current, text, disk);
   }
 
   /** Makes the same change in other files, once the user has agreed; false where nothing was changed. */
@@ -429,9 +471,11 @@ export class Documents {
   // --- The disk ---
 
   /** A file is not what it was. */
-  onDisk(path: string, disk: string | null, text: string | null): void {
+  onDisk(path: string, disk: string | null, found: string | null): void {
     const { current, studio } = this;
     if (path !== current.name || current.untitled || disk === current.disk) return;
+    const text = plain(found);
+    if (found !== null) current.raw = text === found ? null : found;
     const mine = studio.editor.text;
     if (text === mine && disk !== null) {
       current.disk = disk;
@@ -495,12 +539,12 @@ export class Documents {
       studio.say(`Your text is kept as ${kept}.`);
     } else {
       try {
-        const { disk } = await studio.engine.request("save", { doc: current.name, text: mine, disk: conflict.disk });
+        const { disk } = await this.store(current.name, mine, conflict.disk);
         if (conflict.text !== null) await this.shelve(conflict.text);
-        this.saved(mine, disk);
+        this.saved(current, mine, disk);
       } catch (error) {
         if (error instanceof EngineError && error.conflict) {
-          current.conflict = error.conflict;
+          current.conflict = { ...error.conflict, text: plain(error.conflict.text) };
           this.tellConflict();
           return this.settle();
         }

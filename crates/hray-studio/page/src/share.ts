@@ -17,18 +17,29 @@ function fromBase64(text: string): Uint8Array<ArrayBuffer> {
 const LONGEST = 4 * 1024 * 1024;
 
 export async function encodeShare(text: string): Promise<string> {
+  if (new Blob([text]).size > LONGEST) throw new Error("This text is longer than 4 MiB, which is more than a link may carry. Save it and share the file.");
   const stream = new Blob([text]).stream().pipeThrough(new CompressionStream("deflate-raw"));
   return `#s=${toBase64(new Uint8Array(await new Response(stream).arrayBuffer()))}`;
+}
+
+function damaged(): never {
+  throw new Error("it is damaged, or not whole");
 }
 
 /** The text of a link's fragment; null where it carries none. Throws where it carries one that cannot be read. */
 export async function decodeShare(fragment: string): Promise<string | null> {
   if (!fragment.startsWith("#s=")) return null;
-  const reader = new Blob([fromBase64(fragment.slice(3))]).stream().pipeThrough(new DecompressionStream("deflate-raw")).getReader();
+  let packed: Uint8Array<ArrayBuffer>;
+  try {
+    packed = fromBase64(fragment.slice(3));
+  } catch {
+    damaged();
+  }
+  const reader = new Blob([packed]).stream().pipeThrough(new DecompressionStream("deflate-raw")).getReader();
   const parts: Uint8Array<ArrayBuffer>[] = [];
   let length = 0;
   for (;;) {
-    const { done, value } = await reader.read();
+    const { done, value } = await reader.read().catch(() => damaged());
     if (done) break;
     length += value.length;
     if (length > LONGEST) {
@@ -37,5 +48,9 @@ export async function decodeShare(fragment: string): Promise<string | null> {
     }
     parts.push(value as Uint8Array<ArrayBuffer>);
   }
-  return new TextDecoder("utf-8", { fatal: true }).decode(await new Blob(parts).arrayBuffer());
+  try {
+    return new TextDecoder("utf-8", { fatal: true }).decode(await new Blob(parts).arrayBuffer());
+  } catch {
+    damaged();
+  }
 }

@@ -264,6 +264,107 @@ test("taking the text from disk keeps the own one", async () => {
   await page.waitForFunction((other) => window.hray.editor.text === other, mine);
 });
 
+test("a drag, and a choice of colour, are one step back", async () => {
+  await openFile(page, "ball.hry");
+  await settled(page);
+  const number = page.locator(".cm-number-spot", { hasText: "1.0" }).first();
+  const drag = async (release) => {
+    const box = await number.boundingBox();
+    await page.mouse.move(box.x + 4, box.y + box.height / 2);
+    await page.mouse.down();
+    for (let step = 1; step <= 15; step++) await page.mouse.move(box.x + 4 + step * 6, box.y + box.height / 2);
+    await page.waitForFunction((before) => window.hray.editor.text !== before, BALL);
+    await release();
+  };
+  await drag(async () => {
+    await page.keyboard.press("Escape");
+    assert.equal(await text(page), BALL, "Escape gives it up");
+    await page.mouse.up();
+  });
+  assert.equal(await text(page), BALL);
+  await drag(() => page.mouse.up());
+  assert.notEqual(await text(page), BALL);
+  await page.keyboard.press("Control+z");
+  assert.equal(await text(page), BALL);
+  await page.keyboard.press("Control+y");
+  assert.notEqual(await text(page), BALL);
+  await page.keyboard.press("Control+z");
+  await known(page);
+  await page.locator(".cm-content .swatch, .cm-content .cm-swatch").first().click();
+  await page.locator(".picker").waitFor();
+  for (let press = 0; press < 4; press++) await page.keyboard.press("ArrowRight");
+  await page.waitForFunction((before) => window.hray.editor.text !== before, BALL);
+  // A change from elsewhere moves the colour, and what is chosen goes where it is by now.
+  await page.evaluate(() => window.hray.editor.replace(`-- above\n${window.hray.editor.text}`));
+  for (let press = 0; press < 4; press++) await page.keyboard.press("ArrowRight");
+  await page.waitForTimeout(300);
+  await page.keyboard.press("Escape");
+  const chosen = await text(page);
+  assert.match(chosen, /^-- above\nball = sphere \{ radius = 1\.0, center = \(0, 1, 0\), material = classic \{ color = #[0-9a-f]{6} \} \}\n/);
+  assert.ok(!chosen.includes("#d9532c"));
+});
+
+test("a file keeps the line ends that it has", async () => {
+  const [path, importer] = ["windows.hry", "importer.hry"].map((name) => join(scenes.path, name));
+  writeFileSync(path, `-- one\n-- two\nrust = #d9532c\n${BALL}`.replaceAll("\n", "\r\n"));
+  writeFileSync(importer, `import "windows.hry" (rust)\n\n${BALL.replace("#d9532c", "rust")}`);
+  await openFile(page, "windows.hry");
+  assert.equal(await page.locator(".unsaved").count(), 0);
+  await page.keyboard.press("Control+Home");
+  await page.locator(".editor-pane > .cm-editor .cm-content").focus();
+  await page.keyboard.press("Control+Home");
+  await page.keyboard.type("-- typed");
+  await page.keyboard.press("Enter");
+  await page.keyboard.press("Control+s");
+  await page.getByText("Saved windows.hry.").first().waitFor();
+  assert.equal(readFileSync(path, "utf8"), `-- typed\n-- one\n-- two\nrust = #d9532c\n${BALL}`.replaceAll("\n", "\r\n"));
+  await openFile(page, "importer.hry");
+  await settled(page);
+  await page.evaluate(() => window.hray.editor.select(window.hray.editor.text.lastIndexOf("rust"), window.hray.editor.text.lastIndexOf("rust")));
+  await page.keyboard.press("F12");
+  await page.waitForFunction(() => document.title.includes("windows.hry"));
+  await page.waitForFunction(() => {
+    const { from, to } = window.hray.editor.state.selection.main;
+    return window.hray.editor.text.slice(from, to).startsWith("rust");
+  });
+});
+
+test("a save that ends after another file was opened is that of the file it began with", async () => {
+  await openFile(page, "ball.hry");
+  const changed = `${BALL}-- saved late\n`;
+  await type(page, changed);
+  await page.evaluate(() => {
+    const { engine } = window.hray;
+    const request = engine.request.bind(engine);
+    engine.request = async (what, parameters) => {
+      const answer = await request(what, parameters);
+      if (what === "save") await new Promise((resolve) => setTimeout(resolve, 800));
+      return answer;
+    };
+  });
+  await page.keyboard.press("Control+s");
+  await openFile(page, "cradle.hry");
+  await page.getByText("Saved ball.hry.").first().waitFor();
+  assert.equal(await page.locator(".unsaved").count(), 0);
+  assert.equal(readFileSync(join(scenes.path, "ball.hry"), "utf8"), changed);
+  await openFile(page, "ball.hry");
+  assert.equal(await text(page), changed);
+  assert.equal(await page.locator(".unsaved").count(), 0);
+});
+
+test("an explanation follows the picture, and an error is shown over it", async () => {
+  await openFile(page, "ball.hry");
+  await settled(page);
+  await clickPixel(page, 100, 75);
+  await page.getByRole("heading", { name: /sphere/ }).waitFor();
+  await type(page, `-- one more\n${BALL}`);
+  await settled(page);
+  await page.locator(".explain:not(.stale)").getByText("line 2").first().waitFor();
+  await type(page, BALL.replace("radius", "radios"));
+  await page.locator("#tab-problems[aria-selected=true]").waitFor();
+  await page.locator(".rendered").first().waitFor();
+});
+
 test("what was typed is found again after a reload", async () => {
   await openFile(page, "ball.hry");
   const changed = `${BALL}-- typed and not saved\n`;

@@ -2,6 +2,7 @@
 
 import { StateEffect, StateField, type Range } from "@codemirror/state";
 import { Decoration, EditorView, type Command, type DecorationSet } from "@codemirror/view";
+import { Gesture, heldPlace } from "./gesture";
 import type { NumberSpot } from "../engine/protocol";
 
 /** Pixels of the pointer's way for one step of a number. */
@@ -113,7 +114,7 @@ const drag = EditorView.domEventHandlers({
     const held = spot && gripAt(view, spot);
     if (!held || position === null) return false;
     const touch = event.pointerType !== "mouse";
-    let length = held.to - held.from;
+    let gesture: Gesture | null = null;
     let kind: "press" | "turn" | "select" = "press";
     const move = (now: PointerEvent) => {
       const dx = now.clientX - event.clientX;
@@ -121,6 +122,7 @@ const drag = EditorView.domEventHandlers({
       if (kind === "press") {
         if (Math.abs(dx) > SLACK && Math.abs(dx) >= Math.abs(dy)) {
           kind = "turn";
+          gesture = new Gesture(view, held.from, held.to);
           document.documentElement.classList.add("turning");
         } else if (Math.abs(dy) > SLACK * 2) kind = "select";
         else return;
@@ -134,26 +136,28 @@ const drag = EditorView.domEventHandlers({
       now.preventDefault();
       const factor = now.shiftKey ? 10 : now.altKey ? 0.1 : 1;
       const steps = Math.round(dx / PIXELS_PER_STEP) * factor;
-      const insert = turned(held, steps);
-      const current = view.state.sliceDoc(held.from, held.from + length);
-      if (insert === current) return;
-      view.dispatch({
-        changes: { from: held.from, to: held.from + length, insert },
-        selection: { anchor: held.from, head: held.from + insert.length },
-        userEvent: "input.turn",
-      });
-      length = insert.length;
+      gesture?.set(turned(held, steps));
     };
-    const up = () => {
+    const end = (keep: boolean) => {
       document.removeEventListener("pointermove", move);
       document.removeEventListener("pointerup", up);
       document.removeEventListener("pointercancel", up);
+      document.removeEventListener("keydown", escape, true);
+      gesture?.end(keep);
       document.documentElement.classList.remove("turning");
       if (kind === "press") {
         view.focus();
         view.dispatch({ selection: { anchor: position } });
       }
     };
+    const up = () => end(true);
+    const escape = (pressed: KeyboardEvent) => {
+      if (pressed.key !== "Escape" || kind !== "turn") return;
+      pressed.preventDefault();
+      pressed.stopPropagation();
+      end(false);
+    };
+    document.addEventListener("keydown", escape, true);
     document.addEventListener("pointermove", move);
     document.addEventListener("pointerup", up);
     document.addEventListener("pointercancel", up);
@@ -187,4 +191,4 @@ export function turnBy(steps: number): Command {
   };
 }
 
-export const numberTools = [numbers, drag];
+export const numberTools = [numbers, drag, heldPlace];

@@ -108,6 +108,10 @@ export class WorkerEngine implements Engine {
   private async start(): Promise<void> {
     try {
       const answer = await fetch(new URL("engine/hray_playground_bg.wasm", document.baseURI));
+      if (answer.status === 404) {
+        this.tell({ event: "failed", frame: 0, doc: "", message: "There is no engine here. Is this `hray studio`? Then open the whole address that it printed, with its token." });
+        return;
+      }
       if (!answer.ok) throw new Error(`${answer.status}`);
       // Servers that do not know the type of WebAssembly are common.
       this.module = await WebAssembly.compile(await answer.arrayBuffer());

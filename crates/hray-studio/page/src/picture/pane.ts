@@ -49,6 +49,10 @@ export class PicturePane {
   private frame: Frame | null = null;
   private summary: Summary | null = null;
   private comparison: Comparison = "none";
+  /** The one kept before that, until it is known whether the new picture is another. */
+  private earlier: Kept | null = null;
+  private keptHash = "";
+  private pointed: Pixel | null = null;
   private kept: Kept | null = null;
   private pinned = false;
   private playScale = 1;
@@ -176,7 +180,14 @@ export class PicturePane {
         this.element.dataset["frame"] = String(event.frame);
         this.element.dataset["hash"] = event.hash ?? "";
         this.element.dataset["state"] = "complete";
+        if (this.earlier && this.keptHash !== "" && this.keptHash === event.hash) {
+          // Nothing has changed in it: the picture to compare with is still the one before.
+          this.kept = this.earlier;
+          this.picture.setKept(this.comparison === "none" ? null : this.kept);
+        }
+        this.earlier = null;
         this.picture.refreshed();
+        if (this.pointed) this.show(this.picture.read(this.pointed.x, this.pointed.y));
         this.events.state({ is: "complete", seconds: event.seconds, rays: event.rays });
         this.played(event.seconds);
         break;
@@ -196,6 +207,8 @@ export class PicturePane {
   private begin(event: Extract<Events, { event: "frame" }>): void {
     const before = this.frame;
     if (before?.done && !this.pinned && !this.timeline.playing) {
+      this.earlier = this.kept;
+      this.keptHash = this.element.dataset["hash"] ?? "";
       this.kept = { width: before.width, height: before.height, data: this.picture.pixels() };
       this.picture.setKept(this.comparison === "none" ? null : this.kept);
     }
@@ -310,6 +323,7 @@ export class PicturePane {
   }
 
   private show(pixel: Pixel | null): void {
+    this.pointed = pixel;
     if (!pixel) {
       fill(this.readout, h("span", { class: "quiet" }, "Click a pixel to explain it"));
       return;

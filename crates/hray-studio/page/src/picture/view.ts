@@ -251,14 +251,16 @@ export class PictureView {
 
   private drawComparison(): void {
     const { kept, comparison } = this;
-    this.before.hidden = comparison === "none" || !kept;
+    // What has another size cannot be subtracted.
+    const differs = kept !== null && (kept.width !== this.canvas.width || kept.height !== this.canvas.height);
+    this.before.hidden = comparison === "none" || !kept || (comparison === "difference" && differs);
     if (kept && comparison !== "none") {
       this.before.width = kept.width;
       this.before.height = kept.height;
       const context = this.before.getContext("2d", { alpha: false });
-      if (comparison === "wipe" || kept.width !== this.canvas.width || kept.height !== this.canvas.height) {
+      if (comparison === "wipe") {
         context?.putImageData(kept.data, 0, 0);
-      } else {
+      } else if (!differs) {
         context?.putImageData(difference(this.pixels(), kept.data), 0, 0);
       }
     }

@@ -10,10 +10,10 @@ import { openDialog } from "./dialog";
 export type Resolution = "mine" | "disk" | "copy" | null;
 
 /** Shows both texts and asks what is to become of them; null where the user decides later. */
-export function openConflict(doc: string, mine: string, disk: string | null): Promise<Resolution> {
+export function openConflict(doc: string, mine: string, disk: string | null, title?: string, action = "Save mine"): Promise<Resolution> {
   return new Promise((resolve) => {
     let answer: Resolution = null;
-    const dialog = openDialog(disk === null ? `${doc} is gone from disk` : `${doc} was changed here and on disk`, {
+    const dialog = openDialog(title ?? (disk === null ? `${doc} is gone from disk` : `${doc} was changed here and on disk`), {
       class: "conflict",
       closed: () => {
         merge.destroy();
@@ -36,7 +36,7 @@ export function openConflict(doc: string, mine: string, disk: string | null): Pr
         h("button", { type: "button", class: "plain", onclick: dialog.close }, "Decide later"),
         h("button", { type: "button", class: "plain", "data-choice": "copy", onclick: choose("copy") }, "Save mine under another name"),
         disk === null ? null : h("button", { type: "button", class: "plain", "data-choice": "disk", onclick: choose("disk") }, "Take what is on disk"),
-        h("button", { type: "button", class: "primary", "data-choice": "mine", onclick: choose("mine") }, "Save mine"),
+        h("button", { type: "button", class: "primary", "data-choice": "mine", onclick: choose("mine") }, action),
       ),
     );
     const merge = new MergeView({

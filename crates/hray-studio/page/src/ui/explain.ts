@@ -55,16 +55,26 @@ const reaches: Record<string, string> = {
 
 export class ExplainPanel {
   readonly element = h("div", { class: "explain" });
+  /** The pixel that is explained. */
+  pixel: [number, number] | null = null;
 
   constructor(private readonly events: ExplainEvents) {
     this.clear();
   }
 
+  /** What is shown is of another picture than the one to come. */
+  stale(): void {
+    this.element.classList.add("stale");
+  }
+
   clear(): void {
+    this.pixel = null;
+    this.element.classList.remove("stale");
     fill(this.element, h("p", { class: "nothing" }, "Click a pixel of the picture to see what it is made of."));
   }
 
   waiting(x: number, y: number): void {
+    this.element.classList.remove("stale");
     fill(this.element, h("p", { class: "nothing" }, `Following the rays of pixel ${x}, ${y} …`));
   }
 
@@ -73,6 +83,8 @@ export class ExplainPanel {
   }
 
   show(explanation: Explanation): void {
+    this.pixel = explanation.pixel;
+    this.element.classList.remove("stale");
     const [x, y] = explanation.pixel;
     const big = h("span", { class: "big-swatch" });
     big.style.backgroundColor = explanation.display;

@@ -129,8 +129,9 @@ export function openChooser(choices: OpenChoices, welcome: boolean): void {
   input.addEventListener("keydown", (event) => {
     if (event.key !== "Enter") return;
     event.preventDefault();
-    const typed = input.value.trim();
-    const exact = choices.files.find((file) => file.path === typed);
+    const typed = input.value.trim().replace(/^\.\//, "");
+    // A whole path is meant as it is, listed or not.
+    const exact = typed.endsWith(".hry") || choices.files.some((file) => file.path === typed);
     const first = content.querySelector<HTMLElement>(".file-list li > button:first-child, .card");
     if (choices.folder !== null && typed !== "" && (exact || !first)) done(() => choices.open(typed));
     else first?.click();
