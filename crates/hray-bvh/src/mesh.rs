@@ -133,8 +133,11 @@ impl TriangleMesh {
     /// Every triangle that a ray may meet, in the order in which boxes are come to; most are missed narrowly.
     #[inline(always)]
     pub fn candidates<S: Simd>(&self, simd: S, ray: &Ray, stack: &mut Stack, found: impl FnMut(u32)) {
-        let mut ray = *ray;
-        self.tree.closest(simd, &mut ray, stack, &mut Candidates { blocks: &self.blocks, found });
+        let mut found = found;
+        self.tree.visit(simd, ray, stack, |units| {
+            let numbers = self.blocks[units].iter().flat_map(|block| block.numbers);
+            numbers.filter(|&number| number != u32::MAX).for_each(&mut found);
+        });
     }
 
     /// The nearest hit by trying every triangle: what [`Self::closest`] has to find.
@@ -187,36 +190,6 @@ impl Leaves for MeshLeaves<'_> {
             #[inline(always)]
             |block| hits(simd, block, &self.shear, ray.near, ray.far).is_some(),
         )
-    }
-}
-
-struct Candidates<'a, F> {
-    blocks: &'a [Block],
-    found: F,
-}
-
-impl<F: FnMut(u32)> Leaves for Candidates<'_, F> {
-    #[inline(always)]
-    fn prefetch(&self, unit: usize) {
-        if let Some(block) = self.blocks.get(unit) {
-            prefetch(block);
-        }
-    }
-
-    #[inline(always)]
-    fn closest<S: Simd>(&mut self, _simd: S, _ray: &mut Ray, units: std::ops::Range<usize>) {
-        for block in &self.blocks[units] {
-            block
-                .numbers
-                .iter()
-                .filter(|&&number| number != u32::MAX)
-                .for_each(|&number| (self.found)(number));
-        }
-    }
-
-    #[inline(always)]
-    fn any<S: Simd>(&mut self, _simd: S, _ray: &Ray, _units: std::ops::Range<usize>) -> bool {
-        false
     }
 }
 

@@ -236,6 +236,18 @@ impl Tree {
         )
     }
 
+    /// Visits every leaf that the ray comes to between its ends, whatever is in it.
+    #[inline(always)]
+    pub fn visit<S: Simd>(
+        &self,
+        simd: S,
+        ray: &Ray,
+        stack: &mut Stack,
+        visit: impl FnMut(std::ops::Range<usize>),
+    ) {
+        self.closest(simd, &mut ray.clone(), stack, &mut Visit(visit));
+    }
+
     #[inline(always)]
     fn prefetch(&self, child: u32, leaves: &impl Leaves) {
         if child & LEAF != 0 {
@@ -324,6 +336,25 @@ impl Tree {
                 }
             }
         }
+    }
+}
+
+/// Shortens no ray, and finds nothing.
+struct Visit<F>(F);
+
+impl<F: FnMut(std::ops::Range<usize>)> Leaves for Visit<F> {
+    #[inline(always)]
+    fn prefetch(&self, _unit: usize) {}
+
+    #[inline(always)]
+    fn closest<S: Simd>(&mut self, _simd: S, _ray: &mut Ray, units: std::ops::Range<usize>) {
+        (self.0)(units);
+    }
+
+    #[inline(always)]
+    fn any<S: Simd>(&mut self, _simd: S, _ray: &Ray, units: std::ops::Range<usize>) -> bool {
+        (self.0)(units);
+        false
     }
 }
 

@@ -196,6 +196,8 @@ impl Mesh {
     /// gone along in one direction as in the other. A mesh with none has an inside, and can be a part of solids: all points
     /// around which the surface goes, in whichever direction. Vertices in the same place are one here, and triangles that
     /// are not seen do not count.
+    ///
+    /// Worked out once: time grows as n log n with the triangles, and some 36 bytes are taken for each meanwhile.
     #[must_use]
     pub fn open_edges(&self) -> usize {
         *self.open_edges.get_or_init(|| {

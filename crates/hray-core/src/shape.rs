@@ -42,16 +42,21 @@ pub struct Cuboid {
     pub max: DVec3,
 }
 
-/// A quadric: all points where a polynomial of the second degree is 0. Its inside is where that is negative.
+/// A quadric: all points p = (x, y, z) of object space where a polynomial of the second degree is 0:
+///
+/// `square · (x², y², z²) + product · (x y, x z, y z) + linear · (x, y, z) + constant = 0`
+///
+/// Its inside is where that is negative; it may be endless. All numbers are finite. Where `square`, `product` and `linear`
+/// are 0 there is no surface.
 ///
 /// Surface parameters: u and v are x and z in object space.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Quadric {
-    /// What x², y² and z² are multiplied by.
+    /// What x², y² and z² are multiplied by. One over squared object-space units, in units of the polynomial.
     pub square: DVec3,
-    /// What xy, xz and yz are multiplied by.
+    /// What x y, x z and y z are multiplied by; likewise.
     pub product: DVec3,
-    /// What x, y and z are multiplied by.
+    /// What x, y and z are multiplied by. One over object-space units.
     pub linear: DVec3,
     /// What is added.
     pub constant: f64,

@@ -113,7 +113,7 @@ pub struct Objects {
     pub planes: usize,
     /// Boxes.
     pub boxes: usize,
-    /// Cylinders and cones, discs, tori.
+    /// Curved shapes but spheres: cylinders and cones, discs, tori, quadrics.
     pub round: usize,
     /// Solids made of others by constructive solid geometry.
     pub csg: usize,

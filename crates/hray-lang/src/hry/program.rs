@@ -420,7 +420,7 @@ pub(super) fn nearest<'n>(name: &str, names: impl Iterator<Item = &'n str>) -> O
 
 /// `a`, `b` and `c`, or the first ten of many.
 pub(super) fn listed<T: AsRef<str>>(names: &[T]) -> String {
-    const SHOWN: usize = 10;
+    const SHOWN: usize = 12;
     let quoted: Vec<String> = names.iter().take(SHOWN).map(|name| format!("`{}`", name.as_ref())).collect();
     match quoted.split_last() {
         None => String::new(),

@@ -1,29 +1,22 @@
 //! A tree over what is bounded, for scenes with many objects.
 
+use super::bounds::{Corners, FARTHEST, is_bounded, of_leaf, of_solid, tree_of};
 use super::geometry::{Geometry, Root};
-use super::placement::Placement;
-use super::shapes::{Prepared, Rays};
-use super::solid::{Ray, Solid, Walk};
+use super::shapes::Rays;
+use super::solid::Walk;
+use super::solid_boxes::Boxes;
 use super::trace::{Nearest, mesh_hit, mesh_shadow, placed_hit, solid_hit};
 use fearless_simd::f32x8;
 use fearless_simd::prelude::*;
-use hray_bvh::{AnyLeaves, Bounds, ClosestLeaves, Leaves, MOST_RAYS, Packet, Tree};
-use hray_core::{CsgOperation, DVec3};
+use hray_bvh::{AnyLeaves, ClosestLeaves, MOST_RAYS, Packet, Tree};
+use hray_core::DVec3;
 use hray_expr::kernels::lanes::{Lanes, Mask, Vec3};
 use std::ops::Range;
 
 /// With fewer bounded objects trying all of them is quicker.
 const WORTHWHILE: usize = 12;
-/// So few leaves of a solid as well.
-const WORTHWHILE_IN_SOLIDS: usize = 4;
 /// More cannot be numbered.
 const MOST: usize = 1 << 27;
-/// Coordinates of greater magnitude, from the middle of everything, are left out of the tree: their squares, and products with
-/// reciprocals of directions, could leave the range of single precision.
-const FARTHEST: f64 = 1e15;
-/// Trees of smaller things could as well.
-const SMALLEST: f64 = 1e-15;
-
 /// What is bounded, in a tree.
 pub(super) struct Accelerated {
     tree: Tree,
@@ -40,11 +33,6 @@ enum Item {
     Mesh(u32),
     Solid(u32),
 }
-
-/// Two corners; infinite ones, and ones that are no numbers, for what has no bounds.
-type Corners = [DVec3; 2];
-
-const EVERYWHERE: Corners = [DVec3::NEG_INFINITY, DVec3::INFINITY];
 
 /// Moves what is bounded from the roots to a tree, if that is worth it.
 pub(super) fn accelerate(geometry: &mut Geometry) {
@@ -88,164 +76,6 @@ pub(super) fn accelerate(geometry: &mut Geometry) {
         geometry.roots = others;
         geometry.tree = Some(Accelerated { tree, items, center });
     }
-}
-
-/// A tree over boxes, their numbers in its order, and the origin of its coordinates; nothing where they are too great or
-/// too small.
-fn tree_of(boxes: &[Corners]) -> Option<(Tree, Vec<u32>, DVec3)> {
-    let whole = boxes.iter().copied().reduce(union)?;
-    let center = (whole[0] + whole[1]) * 0.5;
-    let reach = (whole[1] - whole[0]).max_element();
-    if !(SMALLEST..FARTHEST).contains(&reach) {
-        return None;
-    }
-    let boxes: Vec<Bounds> = boxes
-        .iter()
-        .map(|[min, max]| Bounds::outward((*min - center).to_array(), (*max - center).to_array()))
-        .collect();
-    let (tree, order) = Tree::of_boxes(&boxes);
-    Some((tree, order, center))
-}
-
-fn is_bounded(corners: &Corners) -> bool {
-    corners.iter().all(|corner| corner.abs().cmplt(DVec3::splat(FARTHEST)).all())
-}
-
-/// The leaves of a solid, by where they are.
-pub(super) struct Boxes {
-    tree: Tree,
-    /// What the units of the tree's leaves are.
-    leaves: Box<[u32]>,
-    /// Leaves without bounds.
-    others: Box<[u32]>,
-    center: DVec3,
-}
-
-impl Boxes {
-    /// Nothing where trying all leaves is as quick.
-    fn new(geometry: &Geometry, solid: &Solid) -> Option<Self> {
-        let (mut leaves, mut boxes, mut others) = (Vec::new(), Vec::new(), Vec::new());
-        for leaf in 0..solid.leaves.len() as u32 {
-            let corners = of_leaf(geometry, solid.first + leaf);
-            if is_bounded(&corners) {
-                leaves.push(leaf);
-                boxes.push(corners);
-            } else {
-                others.push(leaf);
-            }
-        }
-        if leaves.len() < WORTHWHILE_IN_SOLIDS {
-            return None;
-        }
-        let (tree, order, center) = tree_of(&boxes)?;
-        let leaves = order.iter().map(|&number| leaves[number as usize]).collect();
-        Some(Self { tree, leaves, others: others.into(), center })
-    }
-
-    /// Puts the leaves that a ray may meet between its start and `far` into `walk.met`.
-    #[inline(always)]
-    pub(super) fn meet<S: Simd>(&self, simd: S, ray: &Ray, far: f64, walk: &mut Walk) {
-        let Walk { met, stack, .. } = walk;
-        met.clear();
-        met.extend_from_slice(&self.others);
-        let from = ray.origin - self.center;
-        let [origin, direction] = [from, ray.direction].map(|v| v.to_array().map(|x| x as f32));
-        let far = (far * (1.0 + f64::from(f32::EPSILON))) as f32;
-        let mut ray = hray_bvh::Ray::new(simd, origin, direction, 0.0, far, self.tree.reach());
-        // No box can be tested against such a ray.
-        if !(from.abs().max_element() < FARTHEST && ray.far >= 0.0) {
-            met.extend_from_slice(&self.leaves);
-            return;
-        }
-        self.tree.closest(simd, &mut ray, stack, &mut Meet { leaves: &self.leaves, met });
-    }
-}
-
-/// Notes all leaves that are come to.
-struct Meet<'a> {
-    leaves: &'a [u32],
-    met: &'a mut Vec<u32>,
-}
-
-impl Leaves for Meet<'_> {
-    #[inline(always)]
-    fn prefetch(&self, _unit: usize) {}
-
-    #[inline(always)]
-    fn closest<S: Simd>(&mut self, _simd: S, _ray: &mut hray_bvh::Ray, units: Range<usize>) {
-        self.met.extend_from_slice(&self.leaves[units]);
-    }
-
-    #[inline(always)]
-    fn any<S: Simd>(&mut self, _simd: S, _ray: &hray_bvh::Ray, _units: Range<usize>) -> bool {
-        false
-    }
-}
-
-/// The box around a leaf in the world; all of space where it has none.
-fn of_leaf(geometry: &Geometry, leaf: u32) -> Corners {
-    let corners = corners(geometry, leaf as usize);
-    // An infinite box that was turned has corners that are no numbers, and what is joined with those would forget them.
-    if corners.iter().all(|corner| corner.is_finite()) { corners } else { EVERYWHERE }
-}
-
-fn corners(geometry: &Geometry, leaf: usize) -> Corners {
-    let placement = geometry.placement(leaf);
-    match geometry.shape(leaf) {
-        Prepared::Sphere { center, squared_radius, .. } => {
-            of_sphere(placement, *center, squared_radius.sqrt())
-        }
-        Prepared::ExactSphere { center, radius } => of_sphere(placement, *center, radius.abs()),
-        Prepared::Cuboid { min, max, .. } => placement.map_or([*min, *max], |to| to.box_to_world(*min, *max)),
-        Prepared::Plane { .. } | Prepared::ExactPlane { .. } => EVERYWHERE,
-        Prepared::Round { shape, .. } => {
-            let [min, max] = shape.corners();
-            placement.map_or([min, max], |to| to.box_to_world(min, max))
-        }
-        Prepared::Mesh(mesh) => match (mesh.bounds(), placement) {
-            (Some([min, max]), Some(placement)) => placement.box_to_world(min, max),
-            (Some(corners), None) => corners,
-            (None, _) => [DVec3::ZERO; 2],
-        },
-    }
-}
-
-fn of_sphere(placement: Option<&Placement>, center: DVec3, radius: f64) -> Corners {
-    match placement {
-        None => [center - radius, center + radius],
-        Some(placement) => placement.box_to_world(center - radius, center + radius),
-    }
-}
-
-fn union(a: Corners, b: Corners) -> Corners {
-    [a[0].min(b[0]), a[1].max(b[1])]
-}
-
-/// The box around a solid. Where operands do not meet it is a point of one of them.
-fn of_solid(geometry: &Geometry, solid: &Solid) -> Corners {
-    let mut leaves = 0;
-    let mut corners: Vec<Corners> = Vec::with_capacity(solid.nodes.len());
-    for node in &solid.nodes {
-        let this = match node.made {
-            None => {
-                leaves += 1;
-                of_leaf(geometry, solid.first + leaves - 1)
-            }
-            Some((operation, [a, b])) => {
-                let (a, b) = (corners[a as usize], corners[b as usize]);
-                match operation {
-                    CsgOperation::Union => union(a, b),
-                    CsgOperation::Difference => a,
-                    CsgOperation::Intersection => {
-                        let min = a[0].max(b[0]);
-                        [min, a[1].min(b[1]).max(min)]
-                    }
-                }
-            }
-        };
-        corners.push(this);
-    }
-    corners.last().copied().unwrap_or(EVERYWHERE)
 }
 
 impl Accelerated {

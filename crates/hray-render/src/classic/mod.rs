@@ -11,7 +11,9 @@
 //! edition, § 6.8), rays that leave it start beyond that, and whatever lies ahead of them counts.
 
 mod accelerate;
+mod bounds;
 mod camera;
+mod crossings;
 mod evaluate;
 mod explain;
 mod frame;
@@ -26,6 +28,7 @@ mod quadric;
 mod round;
 mod shapes;
 mod solid;
+mod solid_boxes;
 mod steps;
 mod texture;
 mod torus;

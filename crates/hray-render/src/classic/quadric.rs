@@ -1,9 +1,15 @@
 //! Rays against a quadric, one at a time.
+//!
+//! Along a ray the polynomial is one of the second degree. Its discriminant is not taken from the coefficients, where large
+//! numbers may cancel, but from the polynomial's value at the vertex of the parabola, as for a sphere (E. Haines, J. Günther,
+//! T. Akenine-Möller, "Precision Improvements for Ray/Sphere Intersection", Ray Tracing Gems, 2019).
 
 use super::round::{MOST_INTERVALS, NOWHERE, Spot, nearest_to};
 use super::shapes::BOUND;
 use super::solid::Ray;
 use hray_core::{DMat3, DVec3, Quadric};
+
+const EVERYWHERE: [f64; 2] = [f64::NEG_INFINITY, f64::INFINITY];
 
 /// f(p) = p · Q p + l · p + k, with what can be computed once.
 #[derive(Clone, Debug)]
@@ -50,7 +56,7 @@ impl PreparedQuadric {
         Self { form, ellipsoid: ellipsoid(&form) }
     }
 
-    /// The distances between which the function is negative along a ray.
+    /// The distances between which the function is negative along a ray, in ascending order.
     pub(super) fn intervals(&self, ray: &Ray) -> [[f64; 2]; MOST_INTERVALS] {
         let middle = self.ellipsoid.map_or(DVec3::ZERO, |(middle, _)| middle);
         let (from, near) = nearest_to(ray, middle);
@@ -60,51 +66,52 @@ impl PreparedQuadric {
         let square_d = self.form.square * d;
         let (a, b, c) =
             (d.dot(square_d), square_d.dot(p) + 0.5 * d.dot(self.form.linear), self.form.value(p));
-        let (all, none) = ([[f64::NEG_INFINITY, f64::INFINITY], NOWHERE], [NOWHERE; MOST_INTERVALS]);
-        let discriminant = if a == 0.0 {
-            b * b
-        } else {
-            // The value at the vertex of the parabola: nothing large is cancelled there.
-            -a * self.form.value(p - d * (b / a))
-        };
-        if discriminant <= 0.0 || discriminant.is_nan() {
-            // A plane's or a point's both sides are alike; with no growth at all, all is as it is here.
-            let outside = if a == 0.0 { c >= 0.0 } else { a > 0.0 };
-            return if outside { none } else { all };
-        }
-        let q = -(b + discriminant.sqrt().copysign(b));
-        let (first, second) = (c / q, q / a);
-        let [low, high] = if first < second { [first, second] } else { [second, first] }.map(|t| from + t);
-        // With a of 0 one of them is infinite, on the side to which the function falls or rises for ever.
-        let between = if a == 0.0 { b > 0.0 } else { a > 0.0 };
         if a == 0.0 {
-            let root = from + first;
-            return if between {
-                [[f64::NEG_INFINITY, root], NOWHERE]
+            // At most one root: the function falls or rises for ever, or does not change.
+            let root = from - 0.5 * c / b;
+            let inside = if b > 0.0 {
+                [f64::NEG_INFINITY, root]
+            } else if b < 0.0 {
+                [root, f64::INFINITY]
+            } else if c < 0.0 {
+                EVERYWHERE
             } else {
-                [[root, f64::INFINITY], NOWHERE]
+                NOWHERE
+            };
+            return [inside, NOWHERE];
+        }
+        // From the value at the vertex of the parabola: nothing large is cancelled there.
+        let discriminant = -a * self.form.value(p - d * (b / a));
+        if discriminant > 0.0 {
+            let q = -(b + discriminant.sqrt().copysign(b));
+            let (first, second) = (from + c / q, from + q / a);
+            let [low, high] = if first < second { [first, second] } else { [second, first] };
+            return if a > 0.0 {
+                [[low, high], NOWHERE]
+            } else {
+                [[f64::NEG_INFINITY, low], [high, f64::INFINITY]]
             };
         }
-        if between { [[low, high], NOWHERE] } else { [[f64::NEG_INFINITY, low], [high, f64::INFINITY]] }
+        // The parabola stays on one side, which is that to which it opens.
+        [if a < 0.0 { EVERYWHERE } else { NOWHERE }, NOWHERE]
     }
 
     pub(super) fn spot(&self, point: DVec3) -> Spot {
         let gradient = self.form.gradient(point);
         let steepness = gradient.length();
         let rounding = BOUND * self.form.size(point);
-        if steepness == 0.0 || steepness.is_nan() {
-            // The tip of a cone.
-            return Spot { point, normal: DVec3::Y, bound: rounding.sqrt() };
-        }
-        let normal = gradient / steepness;
-        let moved = point - normal * (self.form.value(point) / steepness);
-        // Near a tip the function is no longer steep.
-        let curve = self.form.square.x_axis.abs().max(self.form.square.y_axis.abs());
-        let curve = curve.max(self.form.square.z_axis.abs()).max_element();
-        let bound =
-            (rounding / steepness).min(if curve > 0.0 { (rounding / curve).sqrt() } else { f64::INFINITY });
-        let size = moved.x.abs() + moved.y.abs() + moved.z.abs();
-        Spot { point: moved, normal, bound: 2.0 * bound + BOUND * size }
+        // How far rounding may move the surface: near the tip of a cone the function is not steep, but curved.
+        let DMat3 { x_axis, y_axis, z_axis } = self.form.square;
+        let curvature = x_axis.abs().max(y_axis.abs()).max(z_axis.abs()).max_element();
+        let (by_slope, by_curve) = (rounding / steepness, (rounding / curvature).sqrt());
+        let (normal, off) = if steepness > 0.0 {
+            (gradient / steepness, self.form.value(point) / steepness)
+        } else {
+            (DVec3::Y, 0.0)
+        };
+        let point = point - normal * off;
+        let size = point.x.abs() + point.y.abs() + point.z.abs();
+        Spot { point, normal, bound: 2.0 * by_slope.min(by_curve) + BOUND * size }
     }
 
     pub(super) fn uv(point: DVec3) -> [f64; 2] {

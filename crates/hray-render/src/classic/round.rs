@@ -155,8 +155,10 @@ impl Axis {
 
     /// How far a circle of radius 1 reaches along x, y and z.
     pub(super) fn reach(&self) -> DVec3 {
-        let of = |n: f64| (1.0 - n * n).max(0.0).sqrt();
-        DVec3::new(of(self.along.x), of(self.along.y), of(self.along.z))
+        // Not from one component: where that is nearly 1, what the others reach is lost in its square.
+        let DVec3 { x, y, z } = self.along;
+        let of = |a: f64, b: f64| (a * a + b * b).sqrt();
+        DVec3::new(of(y, z), of(x, z), of(x, y))
     }
 }
 

@@ -6,15 +6,15 @@
 //! for each leaf beforehand: a surface is turned inside out where an odd number of differences lie above its second
 //! operand.
 //!
-//! Leaves whose boxes a ray does not meet are left out: a tree over the boxes tells which (`accelerate.rs`).
+//! Leaves whose boxes a ray does not meet are left out: a tree over the boxes tells which (`solid_boxes.rs`).
 //!
 //! The tree of operations is a list in which operands come before what is made of them; nothing here recurses.
 
-use super::accelerate::Boxes;
+use super::crossings::Crossing;
 use super::geometry::Geometry;
-use super::mesh::Crossing;
 use super::round::{MOST_INTERVALS, NOWHERE};
 use super::shapes::{PARALLEL, Prepared};
+use super::solid_boxes::Boxes;
 use fearless_simd::Simd;
 use hray_bvh::{PacketStack, Stack};
 use hray_core::{CsgOperation, DVec3};

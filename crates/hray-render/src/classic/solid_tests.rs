@@ -9,8 +9,8 @@ use super::solid::{Ray, SolidHit, Walk};
 use fearless_simd::{Level, dispatch};
 use hray_bvh::Stack;
 use hray_core::{
-    Csg, CsgOperation, Cuboid, DAffine3, DMat3, DVec3, Frustum, Integrator, Material, Mesh, Primitive, Rgb,
-    Shape, Sphere, Texture, Torus,
+    Csg, CsgOperation, Cuboid, DAffine3, DMat3, DVec3, Frustum, Integrator, Material, Mesh, Plane, Primitive,
+    Quadric, Rgb, Shape, Sphere, Texture, Torus,
 };
 use proptest::prelude::*;
 use std::sync::Arc;
@@ -63,12 +63,20 @@ fn cuboid(min: DVec3, max: DVec3) -> Shape {
 }
 
 fn leaf() -> impl Strategy<Value = Primitive> {
-    (0..5, vector(2.0), vector(1.0), 0.1..1.0f64, vector(3.0)).prop_map(|(kind, at, size, radius, turn)| {
+    (0..7, vector(2.0), vector(1.0), 0.1..1.0f64, vector(3.0)).prop_map(|(kind, at, size, radius, turn)| {
         let size = size.abs() + 0.1;
         let shape = match kind {
             0 => Shape::Sphere(Sphere { radius, center: at }),
             1 => cuboid(at - size, at + size),
             2 => mesh_box(exact(at - size), exact(at + size)),
+            // Without end.
+            5 => Shape::Plane(Plane { normal: at, offset: radius }),
+            6 => Shape::Quadric(Arc::new(Quadric {
+                square: at,
+                product: size,
+                linear: turn,
+                constant: -radius,
+            })),
             3 => Shape::Frustum(Arc::new(Frustum {
                 base: at,
                 top: at + size,
@@ -87,6 +95,17 @@ fn leaf() -> impl Strategy<Value = Primitive> {
     })
 }
 
+/// A place in the box between (0, 0, 0) and (1, 1, 1): inside, on an edge, in a diagonal of a face, a corner.
+fn aim(kind: usize, weight: DVec3) -> DVec3 {
+    let w = weight * 0.5 + 0.5;
+    match kind {
+        0 => w,
+        1 => DVec3::new(w.x, w.y.round(), w.z.round()),
+        2 => DVec3::new(w.x, w.x, w.z.round()),
+        _ => w.round(),
+    }
+}
+
 fn operation() -> impl Strategy<Value = CsgOperation> {
     prop_oneof![Just(CsgOperation::Union), Just(CsgOperation::Intersection), Just(CsgOperation::Difference)]
 }
@@ -96,12 +115,12 @@ proptest! {
 
     #[test]
     fn boxes_leave_out_nothing(
-        first in leaf(), rest in prop::collection::vec((operation(), leaf()), 3..14),
+        first in leaf(), rest in prop::collection::vec((operation(), leaf()), 5..16),
         rays in prop::collection::vec((vector(5.0), vector(2.0)), 200),
     ) {
         let solid = rest.into_iter().fold(first, |solid, (operation, part)| csg(operation, solid, part));
         let with = geometry(solid.clone());
-        prop_assert!(with.solids[0].boxes.is_some());
+        prop_assume!(with.solids[0].boxes.is_some());
         let mut without = geometry(solid);
         without.solids[0].boxes = None;
         for (origin, target) in rays {
@@ -112,11 +131,12 @@ proptest! {
         }
     }
 
-    /// Through inner points, edges, diagonals and corners, and from inside.
+    /// Through inner points and through the diagonals where two triangles meet, from outside and from inside. (Where edges
+    /// of the box are hit, either may be missed by rounding.)
     #[test]
     fn a_mesh_in_a_solid_is_what_it_stands_for(
         min in vector(2.0), size in vector(2.0), other in vector(2.0), radius in 0.5..2.0f64, operation in operation(),
-        rays in prop::collection::vec((vector(6.0), vector(1.0), 0..4, any::<bool>()), 100), swapped in any::<bool>(),
+        rays in prop::collection::vec((vector(6.0), vector(1.0), 0..2usize, any::<bool>()), 100), swapped in any::<bool>(),
     ) {
         let min = exact(min);
         let max = min + exact(size.abs() + 0.1);
@@ -127,25 +147,15 @@ proptest! {
         });
         for (origin, weight, kind, on_grid) in rays {
             let origin = if on_grid { exact(origin) } else { origin };
-            let w = weight * 0.5 + 0.5;
-            let aim = match kind {
-                0 => w,
-                1 => DVec3::new(w.x, w.y.round(), w.z.round()),
-                2 => DVec3::new(w.x, w.x, w.z.round()),
-                _ => w.round(),
-            };
-            let ray = Ray { origin, direction: min + (max - min) * aim - origin };
+            let ray = Ray { origin, direction: min + (max - min) * aim(2 * kind, weight) - origin };
+            // In the plane of a face, a ray is inside or not as one likes.
+            if ray.direction.z == 0.0 {
+                continue;
+            }
             let [a, b] = [&both[0], &both[1]].map(|geometry| hit(geometry, &ray));
-            match (a, b) {
-                (Some(a), Some(b)) => {
-                    let distance = (a.at - b.at).abs() * ray.direction.length();
-                    // A ray along a face or an edge meets it, or what is behind.
-                    let grazes = kind != 0;
-                    prop_assert!(distance < 1e-9 || grazes, "{} {}", a.at, b.at);
-                    prop_assert!(a.leaf == b.leaf || grazes);
-                }
-                (None, None) => {}
-                _ => prop_assert!(kind != 0, "{:?} {:?}", a.map(|hit| hit.at), b.map(|hit| hit.at)),
+            prop_assert_eq!(a.map(|hit| hit.leaf), b.map(|hit| hit.leaf));
+            if let (Some(a), Some(b)) = (a, b) {
+                prop_assert!((a.at - b.at).abs() * ray.direction.length() < 1e-9, "{} {}", a.at, b.at);
             }
         }
     }
@@ -153,7 +163,7 @@ proptest! {
     /// However a ray meets a closed mesh: from outside it goes in as often as it comes out.
     #[test]
     fn no_ray_gets_stuck_inside(
-        min in vector(2.0), size in vector(2.0), rays in prop::collection::vec((vector(6.0), vector(1.0), 0..8), 200),
+        min in vector(2.0), size in vector(2.0), rays in prop::collection::vec((vector(6.0), vector(1.0), 0..8usize), 200),
     ) {
         let min = exact(min);
         let max = min + exact(size.abs() + 0.1);
@@ -161,14 +171,7 @@ proptest! {
         let geometry = geometry(csg(CsgOperation::Union, ball, part(mesh_box(min, max), None)));
         let Prepared::Mesh(mesh) = geometry.shape(1) else { unreachable!() };
         for (origin, weight, kind) in rays {
-            let w = weight * 0.5 + 0.5;
-            let aim = match kind {
-                0 => w,
-                1 => DVec3::new(w.x, w.y.round(), w.z.round()),
-                2 => DVec3::new(w.x, w.x, w.z.round()),
-                _ => w.round(),
-            };
-            let target = min + (max - min) * aim;
+            let target = min + (max - min) * aim(kind, weight);
             // Some go exactly through corners, along edges, diagonals and faces.
             let direction = if kind < 4 { target - exact(origin) } else { (origin / 3.0).round() };
             let direction = if direction == DVec3::ZERO { DVec3::X } else { direction };

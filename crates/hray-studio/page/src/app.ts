@@ -155,6 +155,7 @@ export class Studio implements Host {
     if (!spot || !end) return;
     const color = (at as { color?: Colour }).color ?? [0, 0, 0];
     const gesture = new Gesture(view, at.from, at.to);
+    let closed = false;
     let busy = false;
     let next: Colour | null = null;
     const write = async (wanted: Colour) => {
@@ -172,7 +173,6 @@ export class Studio implements Host {
       busy = false;
       if (closed) gesture.end(true);
     };
-    let closed = false;
     const close = () => {
       closed = true;
       if (!busy) gesture.end(true);
@@ -210,7 +210,7 @@ export class Studio implements Host {
   // --- Text to engine ---
 
   private textChanged(byUser: boolean): void {
-    this.explainPanel?.stale();
+    this.explainPanel.stale();
     this.documents.edited(byUser);
     this.edited = true;
     queueMicrotask(() => this.flushEdit());
@@ -609,16 +609,21 @@ export class Studio implements Host {
   }
 
   private async share(): Promise<void> {
+    let fragment: string;
     try {
-      const fragment = await encodeShare(this.editor.text);
-      history.replaceState(null, "", fragment);
-      // A reload shows what is typed from now on, and not the link again.
-      sessionStorage.setItem("hray:shared", fragment);
+      fragment = await encodeShare(this.editor.text);
+    } catch (error) {
+      this.fail(error);
+      return;
+    }
+    history.replaceState(null, "", fragment);
+    // A reload shows what is typed from now on, and not the link again.
+    sessionStorage.setItem("hray:shared", fragment);
+    try {
       await navigator.clipboard.writeText(location.href);
       this.say("The link is on the clipboard. It carries the whole scene.");
-    } catch (error) {
-      if (location.hash.startsWith("#s=") && !(error instanceof Error && error.message.startsWith("This text"))) this.say("The link is in the address bar. It carries the whole scene.");
-      else this.fail(error);
+    } catch {
+      this.say("The link is in the address bar. It carries the whole scene.");
     }
   }
 

@@ -73,7 +73,7 @@ export class Documents {
     sessionStorage.setItem("hray:root", this.root);
     if (before) {
       const mine = (await this.drafts.all(this.root)).find((draft) => draft.tab === tab && draft.doc === before);
-      const known = hello.files.some((file) => (typeof file === "string" ? file : file.path) === before);
+      const known = hello.files.some((file) => file.path === before);
       if (before.startsWith("untitled-") && !known) {
         if (mine) {
           this.showDraft(mine);
@@ -230,7 +230,7 @@ export class Documents {
 
   private async untitledName(): Promise<string> {
     const taken = new Set((await this.drafts?.all(this.root))?.map((draft) => draft.doc));
-    for (const file of this.studio.hello?.files ?? []) taken.add(typeof file === "string" ? file : file.path);
+    for (const file of this.studio.hello?.files ?? []) taken.add(file.path);
     taken.add(this.current.name);
     for (let number = 1; ; number++) if (!taken.has(`untitled-${number}.hry`)) return `untitled-${number}.hry`;
   }
@@ -287,7 +287,7 @@ export class Documents {
     openChooser(
       {
         folder,
-        files: hello.files.map((file) => (typeof file === "string" ? { path: file, kind: "scene" } : file)),
+        files: hello.files,
         examples: hello.examples,
         drafts: this.orphans(),
         open: (path) => void this.open(path),
@@ -369,9 +369,18 @@ export class Documents {
       studio.banner("found", null);
       this.keep();
       studio.showDocument();
-    } else this.drafts?.drop(this.root, current.name);
+    } else void this.savedElsewhere(current.name, text, disk);
     studio.words.announce(`Saved ${current.name}.`);
     studio.words.say(`Saved ${current.name}.`);
+  }
+
+  /** Of a document that is no longer shown a text was saved. What was typed after that is still kept. */
+  private async savedElsewhere(name: string, text: string, disk: string | null): Promise<void> {
+    const { drafts } = this;
+    const mine = (await drafts?.all(this.root))?.find((draft) => draft.tab === drafts?.tab && draft.doc === name);
+    if (!drafts || !mine) return;
+    if (mine.text === text) drafts.drop(this.root, name);
+    else if (disk !== null) drafts.keep({ root: this.root, doc: name, text: mine.text, disk });
   }
 
   private async saveUnder(): Promise<void> {
@@ -417,8 +426,7 @@ export class Documents {
     const { studio } = this;
     const before = from.name;
     if (this.current !== from) {
-      // Another document is shown by now.
-      this.drafts?.drop(this.root, before);
+      void this.savedElsewhere(before, text, null);
       studio.say(`Saved ${path}.`);
       return;
     }
@@ -451,14 +459,17 @@ export class Documents {
     const changed: string[] = [];
     try {
       for (const { doc, edits } of files) {
-        const { text, disk } = await studio.engine.request("open", { path: doc });
-        let result = text;
-        for (const { from, to, text: by } of [...edits].sort((one, other) => other.from - one.from)) {
-          if (text.slice(from, to) !== old) throw new Error(`${doc} has just changed.`);
-          result = result.slice(0, from) + by + result.slice(to);
+        try {
+          const { text, disk } = await studio.engine.request("open", { path: doc });
+          let result = text;
+          for (const { from, to, text: by } of [...edits].sort((one, other) => other.from - one.from)) {
+            if (text.slice(from, to) !== old) throw new Error(`${doc} has just changed.`);
+            result = result.slice(0, from) + by + result.slice(to);
+          }
+          await studio.engine.request("save", { doc, text: result, disk });
+        } finally {
+          studio.send("close", { doc });
         }
-        await studio.engine.request("save", { doc, text: result, disk });
-        studio.send("close", { doc });
         changed.push(doc);
       }
     } catch (error) {

@@ -343,13 +343,16 @@ test("a save that ends after another file was opened is that of the file it bega
     };
   });
   await page.keyboard.press("Control+s");
+  // Typed while it is being saved: that is not saved, and still there later.
+  await type(page, `${changed}-- and later\n`);
   await openFile(page, "cradle.hry");
   await page.getByText("Saved ball.hry.").first().waitFor();
   assert.equal(await page.locator(".unsaved").count(), 0);
   assert.equal(readFileSync(join(scenes.path, "ball.hry"), "utf8"), changed);
   await openFile(page, "ball.hry");
-  assert.equal(await text(page), changed);
-  assert.equal(await page.locator(".unsaved").count(), 0);
+  assert.equal(await text(page), `${changed}-- and later\n`);
+  assert.equal(await page.locator(".unsaved").count(), 1);
+  assert.equal(await page.locator("[data-banner=disk]").count(), 0, "nobody else has changed it");
 });
 
 test("an explanation follows the picture, and an error is shown over it", async () => {

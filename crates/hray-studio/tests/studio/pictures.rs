@@ -150,6 +150,9 @@ fn questions_about_a_text_are_answered() {
     assert!(late["message"].as_str().unwrap().contains("version 3"), "{late}");
     let command = ask("command", json!({ "time": 1.5, "width": 80, "height": 60 })).unwrap();
     assert_eq!(command["command"], "hray render a.hry --size 80x60 --time 1.5");
+    // What is in a folder of its own may read what lies beside that.
+    let command = ask("command", json!({ "doc": "deeper/it's.hry" })).unwrap();
+    assert_eq!(command["command"], r"hray render 'deeper/it'\''s.hry' --root .");
 }
 
 #[test]

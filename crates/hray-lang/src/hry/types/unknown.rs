@@ -2,7 +2,7 @@
 
 use crate::diagnostic::{Diagnostic, Span};
 use crate::hry::ast::{Pattern, PatternKind};
-use crate::hry::library::{CONSTRUCTORS, Constructor};
+use crate::hry::library::{CONSTRUCTORS, Constructor, Makes};
 use crate::hry::program::{Global, LoadedModule, listed, nearest};
 use crate::hry::syntax::complaint::foreign::is_put_before_definitions;
 use std::collections::HashMap;
@@ -11,6 +11,9 @@ use std::sync::Arc;
 /// A name of another language, and how its meaning is written here. Where the second is not empty, it can
 /// simply be put in the name's place.
 struct Foreign(&'static str, &'static str, &'static str);
+
+/// In place of a help: it is a shape that there is not.
+const NO_SHAPE: &str = "no such shape";
 
 /// In alphabetical order, in small letters.
 const FOREIGN: &[Foreign] = &[
@@ -26,22 +29,14 @@ const FOREIGN: &[Foreign] = &[
         "",
         "the background is a field of the scene: `scene = { background = #cfe3ff, ... }`",
     ),
-    Foreign(
-        "blob",
-        "",
-        "there is no blob yet; the shapes are `sphere`, `plane`, `cube`, `box`, `cylinder`, `cone`, `disc`, `torus`, `quadric`, `mesh` and `triangles`",
-    ),
+    Foreign("blob", "", NO_SHAPE),
     Foreign("boolean", "", "the type of `true` and `false` is `Bool`"),
     Foreign(
         "camera",
         "",
         "a camera is `perspective { from = ..., to = ... }`, `orthographic { ... }` or `window { ... }`",
     ),
-    Foreign(
-        "capsule",
-        "",
-        "there is no capsule yet; the shapes are `sphere`, `plane`, `cube`, `box`, `cylinder`, `cone`, `disc`, `torus`, `quadric`, `mesh` and `triangles`",
-    ),
+    Foreign("capsule", "", NO_SHAPE),
     Foreign("case", "", "cases are written `match x { 0 -> a, _ -> b }`"),
     Foreign("ceiling", "ceil", ""),
     Foreign("clock", "", "the time in seconds is the parameter of the scene: `scene t = { ... }`"),
@@ -98,33 +93,17 @@ const FOREIGN: &[Foreign] = &[
     Foreign("function", "", "a function is `\\x -> x + 1`, or a definition with a parameter"),
     Foreign("glass", "", "glass is `classic { transparency = 0.9, ior = 1.5, reflection = 0.1 }`"),
     Foreign("head", "", "the first element is `at 0 list`"),
-    Foreign(
-        "height_field",
-        "",
-        "there is no height_field yet; the shapes are `sphere`, `plane`, `cube`, `box`, `cylinder`, `cone`, `disc`, `torus`, `quadric`, `mesh` and `triangles`",
-    ),
-    Foreign(
-        "heightfield",
-        "",
-        "there is no heightfield yet; the shapes are `sphere`, `plane`, `cube`, `box`, `cylinder`, `cone`, `disc`, `torus`, `quadric`, `mesh` and `triangles`",
-    ),
+    Foreign("height_field", "", NO_SHAPE),
+    Foreign("heightfield", "", NO_SHAPE),
     Foreign("id", "identity", ""),
     Foreign("int", "", "there is one kind of numbers; `floor x` drops what follows the point"),
     Foreign("intersect", "intersection", ""),
     Foreign("inversesqrt", "", "write `1 / sqrt x`"),
-    Foreign(
-        "isosurface",
-        "",
-        "there is no isosurface yet; the shapes are `sphere`, `plane`, `cube`, `box`, `cylinder`, `cone`, `disc`, `torus`, `quadric`, `mesh` and `triangles`",
-    ),
+    Foreign("isosurface", "", NO_SHAPE),
     Foreign("join", "union", ""),
     Foreign("lambda", "", "a function is `\\x -> x + 1`"),
     Foreign("lambert", "classic", ""),
-    Foreign(
-        "lathe",
-        "",
-        "there is no lathe yet; the shapes are `sphere`, `plane`, `cube`, `box`, `cylinder`, `cone`, `disc`, `torus`, `quadric`, `mesh` and `triangles`",
-    ),
+    Foreign("lathe", "", NO_SHAPE),
     Foreign("left", "", "it is `-right`"),
     Foreign("len", "", "the number of elements is `count list`, the length of a vector `length v`"),
     Foreign("length_of", "length", ""),
@@ -178,18 +157,10 @@ const FOREIGN: &[Foreign] = &[
     Foreign("pow", "", "a power is written `a ^ b`"),
     Foreign("power", "", "a power is written `a ^ b`"),
     Foreign("print", "", "`show x` turns a value into text; nothing can be printed from inside a scene"),
-    Foreign(
-        "prism",
-        "",
-        "there is no prism yet; the shapes are `sphere`, `plane`, `cube`, `box`, `cylinder`, `cone`, `disc`, `torus`, `quadric`, `mesh` and `triangles`",
-    ),
+    Foreign("prism", "", NO_SHAPE),
     Foreign("product", "", "a product is `fold (\\a b -> a * b) 1 list`"),
     Foreign("putstrln", "", "nothing can be printed from inside a scene"),
-    Foreign(
-        "pyramid",
-        "",
-        "there is no pyramid yet; the shapes are `sphere`, `plane`, `cube`, `box`, `cylinder`, `cone`, `disc`, `torus`, `quadric`, `mesh` and `triangles`",
-    ),
+    Foreign("pyramid", "", NO_SHAPE),
     Foreign(
         "quad",
         "",
@@ -240,24 +211,12 @@ const FOREIGN: &[Foreign] = &[
         "directional",
         "a light from far away, such as the sun, is `directional { direction = (-1, -3, -1) }`",
     ),
-    Foreign(
-        "superellipsoid",
-        "",
-        "there is no superellipsoid yet; the shapes are `sphere`, `plane`, `cube`, `box`, `cylinder`, `cone`, `disc`, `torus`, `quadric`, `mesh` and `triangles`",
-    ),
+    Foreign("superellipsoid", "", NO_SHAPE),
     Foreign("switch", "", "cases are written `match x { 0 -> a, _ -> b }`"),
     Foreign("tail", "", "all but the first element are `drop 1 list`"),
     Foreign("tau", "turn", "a whole turn in radians is `turn`"),
-    Foreign(
-        "tetrahedron",
-        "",
-        "there is no tetrahedron yet; the shapes are `sphere`, `plane`, `cube`, `box`, `cylinder`, `cone`, `disc`, `torus`, `quadric`, `mesh` and `triangles`",
-    ),
-    Foreign(
-        "text",
-        "",
-        "there is no text yet; the shapes are `sphere`, `plane`, `cube`, `box`, `cylinder`, `cone`, `disc`, `torus`, `quadric`, `mesh` and `triangles`",
-    ),
+    Foreign("tetrahedron", "", NO_SHAPE),
+    Foreign("text", "", NO_SHAPE),
     Foreign(
         "texture",
         "",
@@ -468,6 +427,11 @@ fn foreign(name: &str) -> Option<&'static Foreign> {
 
 fn suggest_foreign(error: Diagnostic, span: Span, foreign: &Foreign) -> Diagnostic {
     match (foreign.1, foreign.2) {
+        ("", NO_SHAPE) => {
+            let shapes = CONSTRUCTORS.iter().filter(|constructor| constructor.makes == Makes::Shape);
+            let shapes: Vec<&str> = shapes.map(|constructor| constructor.name).collect();
+            error.with_help(format!("there is no {} yet; the shapes are {}", foreign.0, listed(&shapes)))
+        }
         ("", help) => error.with_help(help),
         (here, "") => error.with_suggestion(span, here, format!("it is called `{here}` here")),
         (here, help) => error.with_suggestion(span, here, format!("it is called `{here}` here: {help}")),

@@ -25,7 +25,7 @@ export interface FormatEntry {
 export interface Hello {
   version: string;
   root: string;
-  files: (string | FileEntry)[];
+  files: FileEntry[];
   start: string | null;
   canSave: boolean;
   examples: ExampleEntry[];

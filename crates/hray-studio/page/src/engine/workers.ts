@@ -338,11 +338,12 @@ export class WorkerEngine implements Engine {
   }
 
   /** Another worker in the place of one, that is asked the same again. */
-  private replace(lane: Lane): void {
+  private replace(lane: Lane): Lane {
     lane.worker.terminate();
     const fresh = this.hire();
     fresh.questions = lane.asking ? [lane.asking, ...lane.questions] : lane.questions;
     this.lanes[this.lanes.indexOf(lane)] = fresh;
+    return fresh;
   }
 
   /** A worker is given up, and another one takes its place. */
@@ -358,11 +359,10 @@ export class WorkerEngine implements Engine {
     const { busy, asking } = lane;
     lane.asking = null;
     asking?.reject(new EngineError(why));
-    this.replace(lane);
+    const fresh = this.replace(lane);
     if (busy?.kind === "show" || busy?.kind === "tile") {
       // The same would happen again: this picture is not tried again.
-      const fresh = this.lanes[index];
-      if (fresh) fresh.shown = busy.number;
+      fresh.shown = busy.number;
       if (busy.number === this.number && this.told !== -busy.number) {
         this.told = -busy.number;
         this.picture = null;

@@ -74,11 +74,13 @@ export class ExplainPanel {
   }
 
   waiting(x: number, y: number): void {
+    this.pixel = [x, y];
     this.element.classList.remove("stale");
     fill(this.element, h("p", { class: "nothing" }, `Following the rays of pixel ${x}, ${y} …`));
   }
 
   failed(why: string): void {
+    this.element.classList.remove("stale");
     fill(this.element, h("p", { class: "nothing trouble" }, why));
   }
 
