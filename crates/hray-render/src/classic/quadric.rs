@@ -1,8 +1,8 @@
 //! Rays against a quadric, one at a time.
 //!
-//! Along a ray the polynomial is one of the second degree. Its discriminant is not taken from the coefficients, where large
-//! numbers may cancel, but from the polynomial's value at the vertex of the parabola, as for a sphere (E. Haines, J. Günther,
-//! T. Akenine-Möller, "Precision Improvements for Ray/Sphere Intersection", Ray Tracing Gems, 2019).
+//! Along a ray the polynomial is one of the second degree. Where the terms of its discriminant may cancel, that is taken from
+//! the polynomial's value at the vertex of the parabola, as for a sphere (E. Haines, J. Günther, T. Akenine-Möller, "Precision
+//! Improvements for Ray/Sphere Intersection", Ray Tracing Gems, 2019).
 
 use super::round::{MOST_INTERVALS, NOWHERE, Spot, nearest_to};
 use super::shapes::BOUND;
@@ -68,7 +68,7 @@ impl PreparedQuadric {
             (d.dot(square_d), square_d.dot(p) + 0.5 * d.dot(self.form.linear), self.form.value(p));
         if a == 0.0 {
             // At most one root: the function falls or rises for ever, or does not change.
-            let root = from - 0.5 * c / b;
+            let root = self.refined(ray, from - 0.5 * c / b, 2.0 * b);
             let inside = if b > 0.0 {
                 [f64::NEG_INFINITY, root]
             } else if b < 0.0 {
@@ -80,11 +80,16 @@ impl PreparedQuadric {
             };
             return [inside, NOWHERE];
         }
-        // From the value at the vertex of the parabola: nothing large is cancelled there.
-        let discriminant = -a * self.form.value(p - d * (b / a));
+        // Where b² and a c cancel, from the value at the vertex of the parabola, which is then as near as the roots. Elsewhere
+        // the vertex may be so far (a ray almost along a line on the surface) that nothing of its value is right.
+        let plain = b * b - a * c;
+        let discriminant = if plain > 0.5 * b * b { plain } else { -a * self.form.value(p - d * (b / a)) };
         if discriminant > 0.0 {
-            let q = -(b + discriminant.sqrt().copysign(b));
-            let (first, second) = (from + c / q, from + q / a);
+            let root = discriminant.sqrt();
+            let q = -(b + root.copysign(b));
+            let slope = -(2.0 * root).copysign(b);
+            let (first, second) =
+                (self.refined(ray, from + c / q, -slope), self.refined(ray, from + q / a, slope));
             let [low, high] = if first < second { [first, second] } else { [second, first] };
             return if a > 0.0 {
                 [[low, high], NOWHERE]
@@ -94,6 +99,13 @@ impl PreparedQuadric {
         }
         // The parabola stays on one side, which is that to which it opens.
         [if a < 0.0 { EVERYWHERE } else { NOWHERE }, NOWHERE]
+    }
+
+    /// One step of Newton's method from a root at which the function rises by `slope`: the root was counted from a point that may
+    /// be far from it, where the terms are larger than here and so is what rounding makes of them.
+    fn refined(&self, ray: &Ray, root: f64, slope: f64) -> f64 {
+        let step = self.form.value(ray.origin + ray.direction * root) / slope;
+        if step.is_finite() { root - step } else { root }
     }
 
     pub(super) fn spot(&self, point: DVec3) -> Spot {

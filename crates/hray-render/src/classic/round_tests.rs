@@ -305,3 +305,24 @@ fn parameters_go_round_and_up() {
     assert!(close(ring.uv(DVec3::new(0.0, 0.5, 2.0)), [0.5, 0.25]));
     assert!(close(ring.uv(DVec3::new(1.5, 0.0, 0.0)), [0.75, 0.5]));
 }
+
+/// A ray almost along a line on the surface: the vertex of the parabola is thousands of times as far as its first root, and
+/// what is computed there is of no use for that root. Found at random.
+#[test]
+fn a_far_vertex_does_not_blur_the_near_root() {
+    let shape = quadric(
+        DVec3::new(0.11165295744715603, 0.6176811256587962, 0.5808093360429715),
+        DVec3::new(-0.03184869979081636, -0.6429957893939227, -0.09252996100208469),
+        DVec3::new(0.7142331959667955, 0.11803855654820747, 0.6898824834325573),
+        0.23436108331647776,
+    );
+    let origin = DVec3::new(-2.631351767259258, -0.6234036742787162, 0.2905133720344193);
+    let direction = DVec3::new(0.7799845875973042, -0.13114405205005678, 0.6119029994390905);
+    for far in [1.0, 1e6, 1e12] {
+        let prepared = round(&scaled(&shape, far));
+        let [[_, near], [second, _]] = prepared.intervals(&Ray { origin: origin * far, direction });
+        assert!(second > 1000.0 * far, "{second}");
+        let left = outside(&scaled(&shape, far), origin * far + direction * near).abs();
+        assert!(left <= 1e-15 * far, "{left}");
+    }
+}
