@@ -107,7 +107,7 @@ impl Seen {
         let [near, far] = [a[2].min(b[2]).min(c[2]), a[2].max(b[2]).max(c[2])];
         let depth = (u * a[2] + v * b[2] + w * c[2]) / (u + v + w);
         // Where a triangle is seen from the side, rounding may lead out of it.
-        let depth = if depth >= near && depth <= far { depth } else { 0.5 * (near + far) };
+        let depth = depth.max(near).min(far);
         Some((depth * self.scale, if self.scale > 0.0 { -turns } else { turns }))
     }
 }
