@@ -106,7 +106,7 @@ impl Seen {
         }
         let [near, far] = [a[2].min(b[2]).min(c[2]), a[2].max(b[2]).max(c[2])];
         let depth = (u * a[2] + v * b[2] + w * c[2]) / (u + v + w);
-        // Where a triangle is seen from the side, rounding may lead out of it.
+        // Rounding may lead out of the triangle: a little at its edges, anywhere where it is seen from the side.
         let depth = depth.max(near).min(far);
         Some((depth * self.scale, if self.scale > 0.0 { -turns } else { turns }))
     }
