@@ -11,6 +11,7 @@ mod camera;
 mod color;
 mod description;
 mod field;
+mod implicit;
 mod leaves;
 mod light;
 mod material;
@@ -30,6 +31,7 @@ pub use description::{
 pub use field::Field;
 pub use glam::{DAffine3, DMat3, DVec2, DVec3};
 pub use hray_expr::{Function, Image, NoiseTables, NoiseTablesError};
+pub use implicit::Implicit;
 pub use leaves::Leaves;
 pub use light::Light;
 pub use material::Material;

@@ -1,6 +1,6 @@
 //! What can be hit.
 
-use crate::{Disc, Frustum, Mesh, Primitive, Torus};
+use crate::{Disc, Frustum, Implicit, Mesh, Primitive, Torus};
 use glam::DVec3;
 use std::sync::Arc;
 
@@ -101,6 +101,8 @@ pub enum Shape {
     Torus(Arc<Torus>),
     /// A quadric.
     Quadric(Arc<Quadric>),
+    /// Where a function is 0.
+    Implicit(Arc<Implicit>),
     /// A solid made of two.
     Csg(Arc<Csg>),
     /// Triangles, which other primitives may share.
@@ -117,6 +119,7 @@ impl Shape {
             | Self::Cuboid(_)
             | Self::Torus(_)
             | Self::Quadric(_)
+            | Self::Implicit(_)
             | Self::Csg(_) => true,
             Self::Frustum(frustum) => frustum.is_capped,
             Self::Mesh(mesh) => !mesh.triangles().is_empty() && mesh.open_edges() == 0,

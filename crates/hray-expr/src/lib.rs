@@ -24,7 +24,7 @@ pub use derivative::DerivativeError;
 pub use function::Function;
 pub use graph::{Binary, Block, Input, Loop, Node, NodeId, NoiseKind, Unary};
 pub use image::Image;
-pub use interval::{LANES, Range, RangePlan, RangeScratch};
+pub use interval::{Extent, LANES, Range, RangePlan, RangeScratch, Unknown};
 pub use noise::{classic_noise, improved_noise};
 pub use noise_tables::{NoiseTables, NoiseTablesError};
 pub use plan::{Plan, PlanScratch};

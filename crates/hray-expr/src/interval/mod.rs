@@ -4,10 +4,12 @@
 //! Graphics Interface 1990. Eight boxes are worked out together, so that what it costs to find out which operation is next
 //! is shared, and the operations are vectors.
 
+mod bounds;
 mod dual;
 mod lattice;
 mod range;
 
+pub use bounds::{Extent, Unknown};
 pub use range::{LANES, Range};
 
 use crate::{Block, Function, Image, Input, Loop, Node, NoiseTables, cells};

@@ -96,7 +96,7 @@ impl Plan {
     ) {
         let registers = scratch.prepare(self.registers, self.lines);
         for (register, v) in &self.constants {
-            registers[*register as usize][..self.lines].fill(Line([*v; 8]));
+            registers[*register as usize][..self.lines.min(len.div_ceil(8))].fill(Line([*v; 8]));
         }
         let chunk = self.lines * 8;
         for start in (0..len).step_by(chunk) {

@@ -5,7 +5,7 @@ use super::geometry::{Geometry, Root};
 use super::shapes::Rays;
 use super::solid::Walk;
 use super::solid_boxes::Boxes;
-use super::trace::{Nearest, mesh_hit, mesh_shadow, placed_hit, solid_hit};
+use super::trace::{Nearest, placed_hit, single_hit, single_shadow, solid_hit};
 use fearless_simd::f32x8;
 use fearless_simd::prelude::*;
 use hray_bvh::{AnyLeaves, ClosestLeaves, MOST_RAYS, Packet, Tree};
@@ -30,7 +30,7 @@ pub(super) struct Accelerated {
 enum Item {
     Plain(u32),
     Placed(u32),
-    Mesh(u32),
+    Single(u32),
     Solid(u32),
 }
 
@@ -57,7 +57,7 @@ pub(super) fn accelerate(geometry: &mut Geometry) {
                     sort(Item::Placed(leaf), of_leaf(geometry, leaf), Root::Placed(leaf..leaf + 1));
                 }
             }
-            Root::Mesh(leaf) => sort(Item::Mesh(*leaf), of_leaf(geometry, *leaf), Root::Mesh(*leaf)),
+            Root::Single(leaf) => sort(Item::Single(*leaf), of_leaf(geometry, *leaf), Root::Single(*leaf)),
             Root::Solid(solid) => {
                 let corners = of_solid(geometry, geometry.solid_at(*solid));
                 sort(Item::Solid(*solid), corners, Root::Solid(*solid));
@@ -206,10 +206,10 @@ impl<S: Simd> Search<'_, S> {
                         );
                     }
                 }
-                Item::Mesh(leaf) => {
+                Item::Single(leaf) => {
                     let far = self.nearest.distance;
                     let (distance, triangle) =
-                        mesh_hit(simd, self.geometry, leaf as usize, self.rays, far, self.walk);
+                        single_hit(simd, self.geometry, leaf as usize, self.rays, far, self.walk);
                     let met = distance.simd_eq(distance);
                     let leaf = Lanes::<S>::splat(simd, first + f64::from(leaf));
                     let taken = self.nearest.take_any(distance, met, leaf);
@@ -243,9 +243,15 @@ impl<S: Simd> AnyLeaves<S> for Shadows<'_, S> {
             let met = match item {
                 Item::Plain(leaf) => self.geometry.shape(leaf as usize).hit(simd, self.rays),
                 Item::Placed(leaf) => placed_hit(simd, self.geometry, leaf as usize, self.rays),
-                Item::Mesh(leaf) => {
-                    self.dark |=
-                        mesh_shadow(simd, self.geometry, leaf as usize, self.rays, self.distance, self.walk);
+                Item::Single(leaf) => {
+                    self.dark |= single_shadow(
+                        simd,
+                        self.geometry,
+                        leaf as usize,
+                        self.rays,
+                        self.distance,
+                        self.walk,
+                    );
                     None
                 }
                 Item::Solid(solid) => {

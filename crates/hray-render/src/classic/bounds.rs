@@ -38,6 +38,10 @@ fn corners(geometry: &Geometry, leaf: usize) -> Corners {
             let [min, max] = shape.corners();
             placement.map_or([min, max], |to| to.box_to_world(min, max))
         }
+        Prepared::Implicit(surface) => {
+            let [min, max] = surface.corners();
+            placement.map_or([min, max], |to| to.box_to_world(min, max))
+        }
         Prepared::Mesh(mesh) => match (mesh.bounds(), placement) {
             (Some([min, max]), Some(placement)) => placement.box_to_world(min, max),
             (Some(corners), None) => corners,

@@ -36,8 +36,8 @@ pub(super) enum Root {
     /// Leaves with a placement.
     Placed(Range<u32>),
     Solid(u32),
-    /// A leaf that is a mesh.
-    Mesh(u32),
+    /// A leaf that rays go through one at a time.
+    Single(u32),
 }
 
 /// All leaves, and how they make what is hit.
@@ -72,14 +72,14 @@ impl Geometry {
         };
         let mut places = Places::default();
         let mut parts = 0;
+        meshes.share(primitives);
         for primitive in primitives.iter().rev() {
             let first = geometry.shapes.len() as u32;
-            if let Shape::Mesh(mesh) = &primitive.shape {
-                let prepared = meshes.of(mesh).map_err(|_| TooManyParts)?;
+            if let Some(shape) = meshes.single(&primitive.shape, materials.plans.tables())? {
                 let place = places.of(primitive.transform.as_ref(), &mut geometry.placements);
                 let leaf = Leaf { material: materials.of(&primitive.material), place: place << 1 };
-                geometry.roots.push(Root::Mesh(first));
-                geometry.add_leaf(Prepared::Mesh(prepared), leaf);
+                geometry.roots.push(Root::Single(first));
+                geometry.add_leaf(shape, leaf);
             } else if let Some(shape) = Prepared::new(&primitive.shape, integrator) {
                 let place = places.of(primitive.transform.as_ref(), &mut geometry.placements);
                 let leaf = Leaf { material: materials.of(&primitive.material), place: place << 1 };
@@ -145,9 +145,9 @@ impl Geometry {
                     if leaves.len() == MAX_SOLID_PARTS {
                         return Err(TooManyParts);
                     }
-                    let shape = match &part.shape {
-                        Shape::Mesh(mesh) => Some(Prepared::Mesh(meshes.of(mesh).map_err(|_| TooManyParts)?)),
-                        shape => Prepared::new(shape, integrator),
+                    let shape = match meshes.single(&part.shape, materials.plans.tables())? {
+                        None => Prepared::new(&part.shape, integrator),
+                        single => single,
                     };
                     if let Some(shape) = shape {
                         let place = places.of(transform.as_ref(), &mut self.placements);
@@ -172,6 +172,11 @@ impl Geometry {
     /// Whether any leaf is a mesh.
     pub(super) fn has_meshes(&self) -> bool {
         self.shapes.iter().any(|shape| matches!(shape, Prepared::Mesh(_)))
+    }
+
+    /// Whether rays go through a leaf one at a time.
+    pub(super) fn is_single(&self, leaf: usize) -> bool {
+        matches!(&self.shapes[leaf], Prepared::Mesh(_) | Prepared::Implicit(_))
     }
 
     /// Whether a leaf is a mesh.

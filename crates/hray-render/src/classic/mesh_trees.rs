@@ -1,11 +1,19 @@
-//! Trees over meshes, kept from one scene to the next.
+//! Trees over meshes and over the cells of implicit surfaces, kept from one scene to the next.
 
+use super::geometry::TooManyParts;
+use super::implicit::PreparedImplicit;
 use super::mesh::PreparedMesh;
+use super::shapes::Prepared;
 use hray_bvh::MeshError;
-use hray_core::Mesh;
-use std::collections::BTreeMap;
+use hray_core::{Implicit, Mesh, NoiseTables, Primitive, Shape};
 use std::collections::btree_map::Entry;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
+
+/// So many implicit surfaces have as many cells each as are worthwhile; more have fewer.
+const FEW: usize = 8;
+/// They have at least 2 to the power of this less.
+const LEAST_SHARE: u32 = 7;
 
 /// The trees over the meshes of the scene that was prepared last: where the next one has the same meshes, as after an edit
 /// that did not concern them, they need not be built again.
@@ -17,6 +25,17 @@ pub struct MeshTrees {
     alike: BTreeMap<[usize; 2], Vec<usize>>,
     /// Those that the scene in preparation has.
     used: BTreeMap<usize, Arc<PreparedMesh>>,
+    implicit: Surfaces,
+}
+
+/// The same for implicit surfaces.
+#[derive(Default)]
+struct Surfaces {
+    /// By the number of operations and the share of cells.
+    known: BTreeMap<(usize, u32), Vec<Arc<PreparedImplicit>>>,
+    used: BTreeMap<usize, Arc<PreparedImplicit>>,
+    /// Of the cells each of those of the scene in preparation has one part in 2 to the power of this.
+    share: u32,
 }
 
 impl std::fmt::Debug for MeshTrees {
@@ -56,14 +75,71 @@ impl MeshTrees {
         Ok(place.insert(prepared).clone())
     }
 
+    /// Finds out how many implicit surfaces there are, which share cells.
+    pub(super) fn share(&mut self, primitives: &[Primitive]) {
+        let (mut seen, mut surfaces) = (BTreeSet::new(), BTreeSet::new());
+        let mut left: Vec<&Primitive> = primitives.iter().collect();
+        while let Some(primitive) = left.pop() {
+            match &primitive.shape {
+                Shape::Implicit(implicit) => {
+                    surfaces.insert(Arc::as_ptr(implicit).addr());
+                }
+                // Solids share parts.
+                Shape::Csg(csg) if seen.insert(Arc::as_ptr(csg).addr()) => left.extend(&csg.operands),
+                _ => {}
+            }
+        }
+        self.implicit.share =
+            (surfaces.len().div_ceil(FEW).max(1).next_power_of_two().ilog2()).min(LEAST_SHARE);
+    }
+
+    /// A shape that rays go through one at a time; nothing for others.
+    pub(super) fn single(
+        &mut self,
+        shape: &Shape,
+        tables: &NoiseTables,
+    ) -> Result<Option<Prepared>, TooManyParts> {
+        Ok(match shape {
+            Shape::Mesh(mesh) => Some(Prepared::Mesh(self.of(mesh).map_err(|_| TooManyParts)?)),
+            Shape::Implicit(implicit) => Some(Prepared::Implicit(self.implicit.of(implicit, tables))),
+            _ => None,
+        })
+    }
+
     /// Forgets what the scene does not have that was prepared just now.
     pub(crate) fn keep_used(&mut self) {
+        self.implicit.keep_used();
         let used = std::mem::take(&mut self.used);
         self.known = used.into_values().map(|tree| (Arc::as_ptr(tree.mesh()).addr(), tree)).collect();
         self.alike.clear();
         for (address, tree) in &self.known {
             let numbers = [tree.mesh().triangles().len(), tree.mesh().positions().len()];
             self.alike.entry(numbers).or_default().push(*address);
+        }
+    }
+}
+
+impl Surfaces {
+    fn of(&mut self, implicit: &Arc<Implicit>, tables: &NoiseTables) -> Arc<PreparedImplicit> {
+        let share = self.share;
+        let place = match self.used.entry(Arc::as_ptr(implicit).addr()) {
+            Entry::Occupied(used) => return used.get().clone(),
+            Entry::Vacant(place) => place,
+        };
+        let alike = self.known.get(&(implicit.function.nodes().len(), share));
+        let known = alike.and_then(|alike| alike.iter().find(|known| known.implicit() == implicit));
+        let prepared = match known {
+            Some(known) => known.clone(),
+            None => Arc::new(PreparedImplicit::new(implicit.clone(), share, tables)),
+        };
+        place.insert(prepared).clone()
+    }
+
+    fn keep_used(&mut self) {
+        self.known.clear();
+        for surface in std::mem::take(&mut self.used).into_values() {
+            let key = (surface.implicit().function.nodes().len(), surface.share());
+            self.known.entry(key).or_default().push(surface);
         }
     }
 }

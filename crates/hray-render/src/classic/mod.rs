@@ -18,6 +18,9 @@ mod evaluate;
 mod explain;
 mod frame;
 mod geometry;
+mod implicit;
+mod implicit_cells;
+mod implicit_roots;
 mod light;
 mod material;
 mod mesh;
@@ -240,7 +243,7 @@ impl Integrator {
                 }
                 frame.group_hits(self.geometry.len(), self.uses, keys);
                 self.fill_background(frame, functions);
-                dispatch!(self.level, simd => steps::locate(simd, self, frame));
+                dispatch!(self.level, simd => steps::locate(simd, self, frame, walk));
                 if self.uses.fields {
                     self.evaluate_fields(frame, functions);
                 }
@@ -373,6 +376,8 @@ impl Integrator {
     }
 }
 
+#[cfg(test)]
+mod implicit_tests;
 #[cfg(test)]
 mod round_tests;
 #[cfg(test)]

@@ -20,6 +20,10 @@ impl Plans {
         Self { tables: tables.clone(), known: HashMap::new(), list: Vec::new(), use_uv: false }
     }
 
+    pub(super) const fn tables(&self) -> &NoiseTables {
+        &self.tables
+    }
+
     pub(super) fn is_empty(&self) -> bool {
         self.list.is_empty()
     }

@@ -25,6 +25,9 @@ pub(super) struct Spot {
     pub(super) bound: f64,
 }
 
+/// For rays that there are not.
+pub(super) const NO_SPOT: Spot = Spot { point: DVec3::ZERO, normal: DVec3::ZERO, bound: 0.0 };
+
 /// A shape with what can be computed once.
 #[derive(Clone, Debug)]
 pub(super) enum Round {

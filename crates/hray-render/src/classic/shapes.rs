@@ -4,9 +4,10 @@
 //! constants. The exact ones have none: every hit in front of the ray counts, and where a ray that leaves a surface
 //! starts is kept clear of it by [`Surface::bound`].
 
+use super::implicit::PreparedImplicit;
 use super::mesh::PreparedMesh;
 use super::placement::size;
-use super::round::Round;
+use super::round::{NO_SPOT, Round, Spot};
 use super::trace::ray_of;
 use fearless_simd::prelude::*;
 use hray_core::{DVec3, Integrator, Shape};
@@ -61,6 +62,8 @@ pub(super) enum Prepared {
     },
     /// Rays go through its own tree, one at a time, and not by [`Prepared::hit`].
     Mesh(Arc<PreparedMesh>),
+    /// The same.
+    Implicit(Arc<PreparedImplicit>),
 }
 
 /// Rays, one per lane, with what every sphere needs of them.
@@ -90,6 +93,20 @@ pub(super) struct Surface<S: Simd> {
     /// How far from the point along the normal one has to be so that no rounding can tell that one is on the other
     /// side.
     pub(super) bound: Lanes<S>,
+}
+
+impl<S: Simd> Surface<S> {
+    /// Of one place for each ray.
+    #[inline(always)]
+    pub(super) fn of_spots(simd: S, spots: &[Spot; MAX_LANES]) -> Self {
+        let column =
+            |of: fn(&Spot) -> f64| Lanes::<S>::from_slice(simd, &spots.each_ref().map(of)[..Lanes::<S>::LEN]);
+        Self {
+            point: Vec3 { x: column(|s| s.point.x), y: column(|s| s.point.y), z: column(|s| s.point.z) },
+            normal: Vec3 { x: column(|s| s.normal.x), y: column(|s| s.normal.y), z: column(|s| s.normal.z) },
+            bound: column(|s| s.bound),
+        }
+    }
 }
 
 impl Prepared {
@@ -126,7 +143,7 @@ impl Prepared {
                 // A little more, for the rounding of the test; infinite and odd numbers let everything through.
                 Self::Round { shape, nearest, middle, squared_reach: reach * reach * (1.0 + 1e-9) }
             }
-            Shape::Csg(_) | Shape::Mesh(_) => return None,
+            Shape::Csg(_) | Shape::Mesh(_) | Shape::Implicit(_) => return None,
         })
     }
 
@@ -223,7 +240,7 @@ impl Prepared {
                 let distance = Lanes::<S>::from_slice(simd, &distances[..Lanes::<S>::LEN]);
                 Some((distance, distance.simd_eq(distance)))
             }
-            Self::Sphere { .. } | Self::Plane { .. } | Self::Mesh(_) => None,
+            Self::Sphere { .. } | Self::Plane { .. } | Self::Mesh(_) | Self::Implicit(_) => None,
         }
     }
 
@@ -269,21 +286,14 @@ impl Prepared {
             }
             Self::Cuboid { min, max, .. } => cuboid_surface(simd, min, max, rays, distance, point),
             Self::Round { ref shape, .. } => {
-                let mut columns = [[0.0; MAX_LANES]; 7];
-                for lane in 0..Lanes::<S>::LEN {
-                    let spot = shape.spot(DVec3::new(point.x[lane], point.y[lane], point.z[lane]));
-                    let [x, y, z] = spot.point.to_array();
-                    let [nx, ny, nz] = spot.normal.to_array();
-                    for (column, value) in columns.iter_mut().zip([x, y, z, nx, ny, nz, spot.bound]) {
-                        column[lane] = value;
-                    }
+                let mut spots = [NO_SPOT; MAX_LANES];
+                for (lane, spot) in spots.iter_mut().enumerate().take(Lanes::<S>::LEN) {
+                    *spot = shape.spot(DVec3::new(point.x[lane], point.y[lane], point.z[lane]));
                 }
-                let [x, y, z, nx, ny, nz, bound] =
-                    columns.map(|column| Lanes::<S>::from_slice(simd, &column[..Lanes::<S>::LEN]));
-                Surface { point: Vec3 { x, y, z }, normal: Vec3 { x: nx, y: ny, z: nz }, bound }
+                Surface::of_spots(simd, &spots)
             }
-            // The thesis' have no use for it, and a mesh's hits are located by itself.
-            Self::Sphere { .. } | Self::Plane { .. } | Self::Mesh(_) => {
+            // The thesis' have no use for it, and some locate hits by themselves.
+            Self::Sphere { .. } | Self::Plane { .. } | Self::Mesh(_) | Self::Implicit(_) => {
                 Surface { point, normal: point, bound: Lanes::<S>::splat(simd, 0.0) }
             }
         }

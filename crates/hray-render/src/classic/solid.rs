@@ -12,6 +12,7 @@
 
 use super::crossings::Crossing;
 use super::geometry::Geometry;
+use super::implicit;
 use super::round::{MOST_INTERVALS, NOWHERE};
 use super::shapes::{PARALLEL, Prepared};
 use super::solid_boxes::Boxes;
@@ -57,8 +58,9 @@ pub(super) struct Walk {
     pub(super) met: Vec<u32>,
     /// In the tree over everything.
     pub(super) packets: PacketStack,
-    /// In a tree over a mesh or a solid.
+    /// In a tree over a mesh, a solid or the cells of an implicit surface.
     pub(super) stack: Stack,
+    pub(super) implicit: implicit::Scratch,
 }
 
 /// Where a ray enters or leaves a leaf.
@@ -105,7 +107,7 @@ impl Solid {
 
     /// The same among the leaves in `walk.met`.
     fn hit_of<S: Simd>(&self, simd: S, geometry: &Geometry, ray: &Ray, walk: &mut Walk) -> Option<SolidHit> {
-        let Walk { inside, ends, met, crossings, stack, .. } = walk;
+        let Walk { inside, ends, met, crossings, stack, implicit, .. } = walk;
         if met.is_empty() {
             return None;
         }
@@ -114,9 +116,16 @@ impl Solid {
         ends.clear();
         for &leaf in met.iter() {
             let index = self.first as usize + leaf as usize;
-            if let Prepared::Mesh(mesh) = geometry.shape(index) {
+            if geometry.is_single(index) {
                 let ray = geometry.own_ray(index, ray);
-                if mesh.crossings(simd, &ray, geometry.nearest, stack, crossings) {
+                let starts_inside = match geometry.shape(index) {
+                    Prepared::Mesh(mesh) => mesh.crossings(simd, &ray, geometry.nearest, stack, crossings),
+                    Prepared::Implicit(surface) => {
+                        surface.crossings(simd, &ray, geometry.nearest, stack, implicit, crossings)
+                    }
+                    _ => false,
+                };
+                if starts_inside {
                     self.change(leaf, true, inside);
                 }
                 ends.extend(crossings.iter().map(|crossing| {
@@ -254,7 +263,7 @@ fn interval(shape: &Prepared, ray: &Ray) -> [f64; 2] {
             [enter, exit]
         }
         // Not convex.
-        Prepared::Mesh(_) | Prepared::Round { .. } => nowhere,
+        Prepared::Mesh(_) | Prepared::Implicit(_) | Prepared::Round { .. } => nowhere,
     }
 }
 

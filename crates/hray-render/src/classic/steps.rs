@@ -3,10 +3,12 @@
 use super::Integrator;
 use super::frame::{Background, Frame, Group, NOTHING};
 use super::geometry::Geometry;
+use super::implicit::PreparedImplicit;
 use super::material::{BUMP, FIELDS, Number};
 use super::mesh::PreparedMesh;
 use super::placement::{Placement, size};
-use super::shapes::{BOUND, Prepared, Rays};
+use super::round::NO_SPOT;
+use super::shapes::{BOUND, Prepared, Rays, Surface};
 use super::solid::Walk;
 use super::trace::{nearest, ray_of};
 use super::uv::uv;
@@ -70,12 +72,13 @@ pub(super) fn intersect<S: Simd>(
 
 /// Where hits are, and the geometric normals there: outward, of the whole where a shape is part of a solid.
 #[inline(always)]
-pub(super) fn locate<S: Simd>(simd: S, scene: &Integrator, frame: &mut Frame) {
+pub(super) fn locate<S: Simd>(simd: S, scene: &Integrator, frame: &mut Frame, walk: &mut Walk) {
     for at in 0..frame.groups.len() {
         let group = frame.groups[at];
         let geometry = &scene.geometry;
         let shape = geometry.shape(group.leaf);
         let special = scene.exact
+            || geometry.is_single(group.leaf)
             || geometry.placement(group.leaf).is_some()
             || geometry.is_turned(group.leaf)
             || scene.uses.object
@@ -91,7 +94,7 @@ pub(super) fn locate<S: Simd>(simd: S, scene: &Integrator, frame: &mut Frame) {
             if special {
                 simd.vectorize(
                     #[inline(always)]
-                    || locate_special(simd, scene, frame, group, i, &rays, distance),
+                    || locate_special(simd, scene, frame, walk, group, i, &rays, distance),
                 );
                 continue;
             }
@@ -109,6 +112,7 @@ fn locate_special<S: Simd>(
     simd: S,
     scene: &Integrator,
     frame: &mut Frame,
+    walk: &mut Walk,
     group: Group,
     i: usize,
     rays: &Rays<S>,
@@ -119,6 +123,8 @@ fn locate_special<S: Simd>(
     let own = placement.map_or(*rays, |placement| placement.rays(simd, rays));
     let (object, own_normal, bound) = if let Prepared::Mesh(mesh) = shape {
         locate_mesh(simd, scene, mesh, frame, group, i, &own)
+    } else if let Prepared::Implicit(surface) = shape {
+        locate_implicit(simd, surface, walk, &own, distance)
     } else if scene.exact {
         let surface = shape.surface(simd, &own, distance);
         (surface.point, surface.normal, surface.bound)
@@ -203,6 +209,22 @@ fn locate_mesh<S: Simd>(
         Vec3::load(simd, [nx, ny, nz], 0),
         Lanes::<S>::from_slice(simd, &bound[..Lanes::<S>::LEN]),
     )
+}
+
+/// The hits of an implicit surface.
+fn locate_implicit<S: Simd>(
+    simd: S,
+    surface: &PreparedImplicit,
+    walk: &mut Walk,
+    own: &Rays<S>,
+    distance: Lanes<S>,
+) -> (Vec3<S>, Vec3<S>, Lanes<S>) {
+    let mut spots = [NO_SPOT; MAX_LANES];
+    for (lane, spot) in spots.iter_mut().enumerate().take(Lanes::<S>::LEN) {
+        *spot = surface.spot(&ray_of(own, lane), distance[lane], &mut walk.implicit);
+    }
+    let Surface { point, normal, bound } = Surface::of_spots(simd, &spots);
+    (point, normal, bound)
 }
 
 /// Takes what smooth shading needs from a mesh's own space to the world.

@@ -79,9 +79,9 @@ pub(super) fn nearest<S: Simd>(
                 let taken: Mask<S> = nearest.take(distance, distance.simd_eq(distance), leaf);
                 nearest.triangle = taken.select(triangle, nearest.triangle);
             }
-            Root::Mesh(leaf) => {
+            Root::Single(leaf) => {
                 let (distance, triangle) =
-                    mesh_hit(simd, geometry, *leaf as usize, rays, nearest.distance, walk);
+                    single_hit(simd, geometry, *leaf as usize, rays, nearest.distance, walk);
                 let met = distance.simd_eq(distance);
                 let leaf = Lanes::<S>::splat(simd, nothing + 1.0 + f64::from(*leaf));
                 let taken: Mask<S> = nearest.take_any(distance, met, leaf);
@@ -140,8 +140,8 @@ pub(super) fn shadowed<S: Simd>(
                     return dark;
                 }
             }
-            Root::Mesh(leaf) => {
-                dark |= mesh_shadow(simd, geometry, *leaf as usize, rays, distance, walk);
+            Root::Single(leaf) => {
+                dark |= single_shadow(simd, geometry, *leaf as usize, rays, distance, walk);
                 if dark.all_true() {
                     return dark;
                 }
@@ -159,10 +159,10 @@ pub(super) fn shadowed<S: Simd>(
     }
 }
 
-/// The rays that meet a mesh up to `far` (or at any distance, where that is no number): how far, which is no number
-/// where a ray misses, and which triangle.
+/// The rays that meet a leaf, one at a time, up to `far` (or at any distance, where that is no number): how far, which is no
+/// number where a ray misses, and which triangle, where it is a mesh.
 #[inline(always)]
-pub(super) fn mesh_hit<S: Simd>(
+pub(super) fn single_hit<S: Simd>(
     simd: S,
     geometry: &Geometry,
     leaf: usize,
@@ -171,23 +171,30 @@ pub(super) fn mesh_hit<S: Simd>(
     walk: &mut Walk,
 ) -> (Lanes<S>, Lanes<S>) {
     let (mut distances, mut triangles) = ([f64::NAN; MAX_LANES], [0.0; MAX_LANES]);
-    if let Prepared::Mesh(mesh) = geometry.shape(leaf) {
-        for lane in 0..Lanes::<S>::LEN {
-            let far = if far[lane] < f64::INFINITY { far[lane] } else { f64::INFINITY };
-            let ray = geometry.own_ray(leaf, &ray_of(rays, lane));
-            if let Some((distance, triangle)) = mesh.hit(simd, &ray, [geometry.nearest, far], &mut walk.stack)
-            {
-                (distances[lane], triangles[lane]) = (distance, f64::from(triangle));
+    let shape = geometry.shape(leaf);
+    for lane in 0..Lanes::<S>::LEN {
+        let far = if far[lane] < f64::INFINITY { far[lane] } else { f64::INFINITY };
+        let ends = [geometry.nearest, far];
+        let ray = geometry.own_ray(leaf, &ray_of(rays, lane));
+        let hit = match shape {
+            Prepared::Mesh(mesh) => mesh.hit(simd, &ray, ends, &mut walk.stack),
+            Prepared::Implicit(surface) => {
+                let hit = surface.hit(simd, &ray, ends, &mut walk.stack, &mut walk.implicit);
+                hit.map(|distance| (distance, 0))
             }
+            _ => None,
+        };
+        if let Some((distance, triangle)) = hit {
+            (distances[lane], triangles[lane]) = (distance, f64::from(triangle));
         }
     }
     let len = Lanes::<S>::LEN;
     (Lanes::<S>::from_slice(simd, &distances[..len]), Lanes::<S>::from_slice(simd, &triangles[..len]))
 }
 
-/// Which rays meet a mesh that is not farther than `distance`.
+/// Which rays meet a leaf, one at a time, that is not farther than `distance`.
 #[inline(always)]
-pub(super) fn mesh_shadow<S: Simd>(
+pub(super) fn single_shadow<S: Simd>(
     simd: S,
     geometry: &Geometry,
     leaf: usize,
@@ -196,12 +203,19 @@ pub(super) fn mesh_shadow<S: Simd>(
     walk: &mut Walk,
 ) -> Mask<S> {
     let mut met = [f64::NAN; MAX_LANES];
-    if let Prepared::Mesh(mesh) = geometry.shape(leaf) {
-        for lane in 0..Lanes::<S>::LEN {
-            let ray = geometry.own_ray(leaf, &ray_of(rays, lane));
-            if mesh.is_hit(simd, &ray, [geometry.nearest, distance[lane]], &mut walk.stack) {
-                met[lane] = 0.0;
+    let shape = geometry.shape(leaf);
+    for lane in 0..Lanes::<S>::LEN {
+        let ends = [geometry.nearest, distance[lane]];
+        let ray = geometry.own_ray(leaf, &ray_of(rays, lane));
+        let is_met = match shape {
+            Prepared::Mesh(mesh) => mesh.is_hit(simd, &ray, ends, &mut walk.stack),
+            Prepared::Implicit(surface) => {
+                surface.hit(simd, &ray, ends, &mut walk.stack, &mut walk.implicit).is_some()
             }
+            _ => false,
+        };
+        if is_met {
+            met[lane] = 0.0;
         }
     }
     let met = Lanes::<S>::from_slice(simd, &met[..Lanes::<S>::LEN]);

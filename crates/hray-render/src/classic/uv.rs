@@ -44,6 +44,7 @@ pub(super) fn uv(shape: &Prepared, p: DVec3, normal: DVec3) -> [f64; 2] {
             }
         }
         Prepared::Round { ref shape, .. } => shape.uv(p),
+        Prepared::Implicit(ref surface) => surface.uv(p),
         // Located by itself.
         Prepared::Mesh(_) => [0.0; 2],
     }
