@@ -136,6 +136,9 @@ fn objects(objects: &Objects) -> String {
     if objects.round > 0 {
         kinds.push(format!("{} round", grouped(objects.round as u64)));
     }
+    if objects.implicit > 0 {
+        kinds.push(format!("{} implicit", grouped(objects.implicit as u64)));
+    }
     match objects.meshes {
         0 => {}
         1 => kinds.push("1 mesh".to_owned()),

@@ -432,6 +432,7 @@ fn kind_of_object(description: &Description, id: ObjectId) -> &'static str {
         Some(Shape::Disc(_)) => "disc",
         Some(Shape::Torus(_)) => "torus",
         Some(Shape::Quadric(_)) => "quadric",
+        Some(Shape::Implicit(_)) => "implicit surface",
         Some(Shape::Mesh(_)) => "mesh",
         Some(Shape::Csg(_)) | None => "solid",
     }

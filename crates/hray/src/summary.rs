@@ -115,6 +115,8 @@ pub struct Objects {
     pub boxes: usize,
     /// Curved shapes but spheres: cylinders and cones, discs, tori, quadrics.
     pub round: usize,
+    /// Implicit surfaces.
+    pub implicit: usize,
     /// Solids made of others by constructive solid geometry.
     pub csg: usize,
     /// Triangle meshes; one that is placed many times counts each time.
@@ -132,6 +134,7 @@ impl Objects {
                 Shape::Frustum(_) | Shape::Disc(_) | Shape::Torus(_) | Shape::Quadric(_) => {
                     &mut objects.round
                 }
+                Shape::Implicit(_) => &mut objects.implicit,
                 Shape::Csg(_) => &mut objects.csg,
                 Shape::Mesh(_) => &mut objects.meshes,
             } += 1;

@@ -24,11 +24,13 @@ impl Dual {
     }
 
     /// Where it is one number. (Where its slope is 0 rounding may still change it, and a jump makes much of that.)
+    #[inline(always)]
     fn still(&self) -> [bool; LANES] {
         std::array::from_fn(|lane| self.value.low[lane] == self.value.high[lane])
     }
 
     /// A value that jumps, but where all that it is made of stands still.
+    #[inline(always)]
     pub(super) fn jumping<const SLOPE: bool>(value: Range, of: &[&Self]) -> Self {
         if !SLOPE {
             return Self { value, slope: Range::ZERO };
@@ -43,17 +45,20 @@ impl Dual {
     }
 
     /// The same, but it has the given slope in some lanes.
+    #[inline(always)]
     fn smooth_in<const SLOPE: bool>(self, lanes: [bool; LANES], slope: Range) -> Self {
         if SLOPE { Self { value: self.value, slope: self.slope.replaced(lanes, slope) } } else { self }
     }
 
     /// The other in some lanes.
+    #[inline(always)]
     pub(super) fn replaced(&self, lanes: [bool; LANES], other: &Self) -> Self {
         let (value, slope) =
             (self.value.replaced(lanes, other.value), self.slope.replaced(lanes, other.slope));
         Self { value, slope }
     }
 
+    #[inline(always)]
     pub(super) fn hull(&self, other: &Self) -> Self {
         Self { value: self.value.hull(other.value), slope: self.slope.hull(other.slope) }
     }
@@ -61,10 +66,6 @@ impl Dual {
     #[inline(always)]
     pub(super) fn unary<const SLOPE: bool>(f: Unary, a: &Self) -> Self {
         let (value, slope) = (a.value, a.slope);
-        let with = |value: Range, slope: &dyn Fn(Range) -> Range| Self {
-            value,
-            slope: if SLOPE { slope(value) } else { Range::ZERO },
-        };
         match f {
             Unary::Neg => Self { value: value.neg(), slope: if SLOPE { slope.neg() } else { Range::ZERO } },
             Unary::Abs => {
@@ -98,46 +99,96 @@ impl Dual {
                 certain.iter_mut().zip(zero).for_each(|(a, b)| *a |= b);
                 Self::jumping::<SLOPE>(out, &[a]).smooth_in::<SLOPE>(certain, Range::ZERO)
             }
-            Unary::Sqrt => with(value.sqrt(), &|root| slope.div(root.add(root))),
-            Unary::Sin => with(value.sine(0.0), &|_| slope.mul(value.sine(1.0))),
-            Unary::Cos => with(value.sine(1.0), &|_| slope.mul(value.sine(0.0).neg())),
-            Unary::Tan => with(value.tan(), &|tan| slope.mul(ONE.add(tan.square()))),
+            Unary::Sqrt => with::<SLOPE>(
+                value.sqrt(),
+                #[inline(always)]
+                |root| slope.div(root.add(root)),
+            ),
+            Unary::Sin => with::<SLOPE>(
+                value.sine(0.0),
+                #[inline(always)]
+                |_| slope.mul(value.sine(1.0)),
+            ),
+            Unary::Cos => with::<SLOPE>(
+                value.sine(1.0),
+                #[inline(always)]
+                |_| slope.mul(value.sine(0.0).neg()),
+            ),
+            Unary::Tan => with::<SLOPE>(
+                value.tan(),
+                #[inline(always)]
+                |tan| slope.mul(ONE.add(tan.square())),
+            ),
             Unary::Asin | Unary::Acos => {
                 let inside = value.within(-1.0, 1.0);
                 let root = |_| ONE.sub(inside.square()).within(0.0, 1.0).sqrt();
                 if f == Unary::Asin {
-                    with(inside.rising(f, false), &|v| slope.div(root(v)))
+                    with::<SLOPE>(
+                        inside.rising(f, false),
+                        #[inline(always)]
+                        |v| slope.div(root(v)),
+                    )
                 } else {
-                    with(inside.falling(f), &|v| slope.div(root(v)).neg())
+                    with::<SLOPE>(
+                        inside.falling(f),
+                        #[inline(always)]
+                        |v| slope.div(root(v)).neg(),
+                    )
                 }
             }
-            Unary::Atan => with(value.rising(f, false), &|_| slope.div(ONE.add(value.square()))),
-            Unary::Exp => with(value.rising(f, false), &|exp| slope.mul(exp)),
-            Unary::Ln => with(value.within(0.0, f64::INFINITY).rising(f, false), &|_| {
-                slope.div(value.within(0.0, f64::INFINITY))
-            }),
+            Unary::Atan => with::<SLOPE>(
+                value.rising(f, false),
+                #[inline(always)]
+                |_| slope.div(ONE.add(value.square())),
+            ),
+            Unary::Exp => with::<SLOPE>(
+                value.rising(f, false),
+                #[inline(always)]
+                |exp| slope.mul(exp),
+            ),
+            Unary::Ln => with::<SLOPE>(
+                value.within(0.0, f64::INFINITY).rising(f, false),
+                #[inline(always)]
+                |_| slope.div(value.within(0.0, f64::INFINITY)),
+            ),
         }
     }
 
     /// `same` says that both are one and the same number.
     #[inline(always)]
     pub(super) fn binary<const SLOPE: bool>(f: Binary, a: &Self, b: &Self, same: bool) -> Self {
-        let with = |value: Range, slope: &dyn Fn() -> Range| Self {
-            value,
-            slope: if SLOPE { slope() } else { Range::ZERO },
-        };
         match f {
-            Binary::Add => with(a.value.add(b.value), &|| a.slope.add(b.slope)),
+            Binary::Add => with::<SLOPE>(
+                a.value.add(b.value),
+                #[inline(always)]
+                |_| a.slope.add(b.slope),
+            ),
             Binary::Sub if same => Self::jumping::<SLOPE>(a.value.sub(b.value), &[]),
-            Binary::Sub => with(a.value.sub(b.value), &|| a.slope.sub(b.slope)),
-            Binary::Mul if same => with(a.value.square(), &|| {
-                let product = a.value.mul(a.slope);
-                product.add(product)
-            }),
-            Binary::Mul => with(a.value.mul(b.value), &|| a.slope.mul(b.value).add(b.slope.mul(a.value))),
+            Binary::Sub => with::<SLOPE>(
+                a.value.sub(b.value),
+                #[inline(always)]
+                |_| a.slope.sub(b.slope),
+            ),
+            Binary::Mul if same => with::<SLOPE>(
+                a.value.square(),
+                #[inline(always)]
+                |_| {
+                    let product = a.value.mul(a.slope);
+                    product.add(product)
+                },
+            ),
+            Binary::Mul => with::<SLOPE>(
+                a.value.mul(b.value),
+                #[inline(always)]
+                |_| a.slope.mul(b.value).add(b.slope.mul(a.value)),
+            ),
             Binary::Div => {
                 let value = a.value.div(b.value);
-                with(value, &|| a.slope.sub(value.mul(b.slope)).div(b.value))
+                with::<SLOPE>(
+                    value,
+                    #[inline(always)]
+                    |_| a.slope.sub(value.mul(b.slope)).div(b.value),
+                )
             }
             Binary::Modulo => {
                 let (value, smooth) = a.value.modulo(b.value);
@@ -146,16 +197,20 @@ impl Dual {
             }
             Binary::Min | Binary::Max => {
                 let value = if f == Binary::Min { a.value.min(b.value) } else { a.value.max(b.value) };
-                with(value, &|| {
-                    let (mut only_a, mut only_b) = ([false; LANES], [false; LANES]);
-                    for lane in 0..LANES {
-                        let ([low, high], [from, to]) = (a.value.lane(lane), b.value.lane(lane));
-                        let (below, above) = (high < from, to < low);
-                        (only_a[lane], only_b[lane]) =
-                            if f == Binary::Min { (below, above) } else { (above, below) };
-                    }
-                    a.slope.hull(b.slope).replaced(only_a, a.slope).replaced(only_b, b.slope)
-                })
+                with::<SLOPE>(
+                    value,
+                    #[inline(always)]
+                    |_| {
+                        let (mut only_a, mut only_b) = ([false; LANES], [false; LANES]);
+                        for lane in 0..LANES {
+                            let ([low, high], [from, to]) = (a.value.lane(lane), b.value.lane(lane));
+                            let (below, above) = (high < from, to < low);
+                            (only_a[lane], only_b[lane]) =
+                                if f == Binary::Min { (below, above) } else { (above, below) };
+                        }
+                        a.slope.hull(b.slope).replaced(only_a, a.slope).replaced(only_b, b.slope)
+                    },
+                )
             }
             Binary::Pow => Self::power::<SLOPE>(a, b),
             Binary::Atan2 => {
@@ -229,6 +284,12 @@ impl Dual {
         let value = both.value.replaced(yes, a.value).replaced(no, b.value);
         Self { value, ..both }.smooth_in::<SLOPE>(yes, a.slope).smooth_in::<SLOPE>(no, b.slope)
     }
+}
+
+/// A value, and the slope that is made of it where it is asked for.
+#[inline(always)]
+fn with<const SLOPE: bool>(value: Range, slope: impl FnOnce(Range) -> Range) -> Dual {
+    Dual { value, slope: if SLOPE { slope(value) } else { Range::ZERO } }
 }
 
 const ONE: Range = Range::from_ends(1.0, 1.0);

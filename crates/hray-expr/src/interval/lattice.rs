@@ -3,8 +3,10 @@
 //! The noise of 1985 adds 256 before it takes the cell of a coordinate, which rounds what is less than 2^-45 below a whole
 //! number into the next cell. That tear is not seen here.
 
+#![allow(clippy::needless_range_loop, reason = "a lane is the same place in several arrays")]
+
 use super::dual::Dual;
-use super::range::LANES;
+use super::range::{Eight, LANES, Range};
 use crate::noise::{cell, classic_cell, improved_permutation};
 use crate::{NoiseKind, NoiseTables};
 
@@ -22,8 +24,20 @@ pub(super) struct Lattice {
     most: [f64; 2],
 }
 
-/// The range in one lane, and that of the slope.
-type One = [[f64; 2]; 2];
+/// Up to eight boxes, each in a cell of the lattice, whichever lanes they are of.
+struct Batch {
+    len: usize,
+    lanes: [usize; LANES],
+    /// The lower corners of the cells.
+    corners: [[f64; 3]; LANES],
+    /// The boxes, counted from there.
+    p: [Ends; 3],
+    /// How they change.
+    by: [Ends; 3],
+}
+
+/// Lower and upper ends.
+type Ends = [Eight; 2];
 
 impl Lattice {
     pub(super) fn new(kind: NoiseKind, seed: u64, tables: &NoiseTables) -> Self {
@@ -44,125 +58,229 @@ impl Lattice {
         self.kind == kind && self.seed == seed
     }
 
+    #[inline(always)]
     pub(super) fn over<const SLOPE: bool>(&self, p: [&Dual; 3]) -> Dual {
-        let mut out = Dual::ENTIRE;
+        let nowhere = Range::from_ends(f64::INFINITY, f64::NEG_INFINITY);
+        let mut out = Dual { value: nowhere, slope: nowhere };
+        let mut batch = Batch {
+            len: 0,
+            lanes: [0; LANES],
+            corners: [[0.0; 3]; LANES],
+            p: [[[0.0; LANES]; 2]; 3],
+            by: [[[0.0; LANES]; 2]; 3],
+        };
         for lane in 0..LANES {
-            let at = p.map(|axis| axis.value.lane(lane));
-            let by = if SLOPE { p.map(|axis| axis.slope.lane(lane)) } else { [[0.0; 2]; 3] };
+            let [x, y, z] = p;
+            let at = [x.value.lane(lane), y.value.lane(lane), z.value.lane(lane)];
+            let (mut first, mut counts, mut total) = ([0.0; 3], [0; 3], 1.0);
+            let (mut is_number, mut told_apart) = (true, true);
+            for axis in 0..3 {
+                let [low, high] = at[axis];
+                is_number &= low == low && high == high;
+                // Beyond 2^50 the cells of a box are no longer told apart.
+                told_apart &= low.abs() < 1e15 && high.abs() < 1e15;
+                first[axis] = low.floor();
+                let count = high.floor() - first[axis] + 1.0;
+                total *= count;
+                counts[axis] = count as usize;
+            }
+            if !is_number {
+                out.value.set(lane, [f64::NAN; 2]);
+                out.slope.set(lane, [f64::NAN; 2]);
+                continue;
+            }
+            let mut by = [[0.0; 2]; 3];
+            if SLOPE {
+                by = [x.slope.lane(lane), y.slope.lane(lane), z.slope.lane(lane)];
+            }
+            if !(told_apart && total <= MOST_CELLS) {
+                let [value, slope] = self.most;
+                let mut along = 0.0;
+                for [a, b] in by {
+                    along += most(a.abs(), b.abs());
+                }
+                out.value.set(lane, [-value, value]);
+                out.slope.set(lane, [-slope * along, slope * along]);
+                continue;
+            }
+            for i in 0..counts[0] {
+                for j in 0..counts[1] {
+                    for k in 0..counts[2] {
+                        let corner = [first[0] + i as f64, first[1] + j as f64, first[2] + k as f64];
+                        let slot = batch.len;
+                        batch.lanes[slot] = lane;
+                        batch.corners[slot] = corner;
+                        for axis in 0..3 {
+                            let [low, high] = at[axis];
+                            batch.p[axis][0][slot] = most(low - corner[axis], 0.0);
+                            batch.p[axis][1][slot] = least(high - corner[axis], 1.0);
+                            batch.by[axis][0][slot] = by[axis][0];
+                            batch.by[axis][1][slot] = by[axis][1];
+                        }
+                        batch.len += 1;
+                        if batch.len == LANES {
+                            self.add::<SLOPE>(&mut batch, &mut out);
+                        }
+                    }
+                }
+            }
+        }
+        if batch.len > 0 {
+            self.add::<SLOPE>(&mut batch, &mut out);
+        }
+        if SLOPE {
             // What changes without bound does so after this, too.
-            let bounded = by.as_flattened().iter().all(|v| v.is_finite());
-            let [value, slope] = self.over_box::<SLOPE>(at, if bounded { by } else { [[0.0; 2]; 3] });
-            let slope = if bounded { slope } else { [f64::NEG_INFINITY, f64::INFINITY] };
-            out.value.set(lane, value);
-            out.slope.set(lane, slope);
+            let mut endless = [false; LANES];
+            for axis in p {
+                for lane in 0..LANES {
+                    endless[lane] |= !axis.slope.lane(lane).iter().all(|v| v.is_finite());
+                }
+            }
+            out.slope = out.slope.replaced(endless, Range::ENTIRE);
+        } else {
+            out.slope = Range::ZERO;
         }
         out
     }
 
-    fn over_box<const SLOPE: bool>(&self, at: [[f64; 2]; 3], by: [[f64; 2]; 3]) -> One {
-        if at.as_flattened().iter().any(|v| v.is_nan()) {
-            return [[f64::NAN; 2]; 2];
+    /// Adds what the boxes of a batch can be to the lanes that they are of.
+    #[inline(always)]
+    fn add<const SLOPE: bool>(&self, batch: &mut Batch, out: &mut Dual) {
+        let [value, slope] = self.in_cells::<SLOPE>(batch);
+        for slot in 0..batch.len {
+            let lane = batch.lanes[slot];
+            let add = |range: &mut Range, [low, high]: [f64; 2]| {
+                range.low[lane] = least(low, range.low[lane]);
+                range.high[lane] = most(high, range.high[lane]);
+            };
+            add(&mut out.value, [value[0][slot], value[1][slot]]);
+            add(&mut out.slope, [slope[0][slot], slope[1][slot]]);
         }
-        let first = at.map(|[low, _]| low.floor());
-        let last = at.map(|[_, high]| high.floor());
-        let counts = [0, 1, 2].map(|axis| last[axis] - first[axis] + 1.0);
-        // Beyond 2^50 the cells of a box are no longer told apart.
-        let told_apart = first.iter().chain(&last).all(|v| v.abs() < 1e15);
-        if !(told_apart && counts.into_iter().product::<f64>() <= MOST_CELLS) {
-            let [value, slope] = self.most;
-            let along: f64 = by.iter().map(|[a, b]| most(a.abs(), b.abs())).sum();
-            return [[-value, value], [-slope * along, slope * along]];
-        }
-        let mut out: Option<One> = None;
-        let counts = counts.map(|count| count as usize);
-        for i in 0..counts[0] {
-            for j in 0..counts[1] {
-                for k in 0..counts[2] {
-                    let corner = [first[0] + i as f64, first[1] + j as f64, first[2] + k as f64];
-                    let inside = [0, 1, 2].map(|axis| {
-                        let [low, high] = at[axis];
-                        [most(low - corner[axis], 0.0), least(high - corner[axis], 1.0)]
-                    });
-                    let one = self.in_cell::<SLOPE>(corner, inside, by);
-                    out = Some(out.map_or(one, |all| {
-                        [0, 1]
-                            .map(|part| [least(all[part][0], one[part][0]), most(all[part][1], one[part][1])])
-                    }));
-                }
-            }
-        }
-        out.unwrap_or([[f64::NAN; 2]; 2])
+        batch.len = 0;
     }
 
-    /// Over a box in a cell, given by its lower corner; `p` counts from there.
-    fn in_cell<const SLOPE: bool>(&self, corner: [f64; 3], p: [[f64; 2]; 3], by: [[f64; 2]; 3]) -> One {
-        let gradients = self.corners(corner);
-        let weights = p.map(|at| self.weight(at, SLOPE));
-        let product = |index: usize| -> One {
-            let from = [index & 1, (index >> 1) & 1, index >> 2].map(|side| side as f64);
-            let (mut low, mut high, mut size) = (0.0, 0.0, 0.0);
-            let mut slope = [0.0; 2];
-            for axis in 0..3 {
-                let g = gradients[index][axis];
-                let (a, b) = (g * (p[axis][0] - from[axis]), g * (p[axis][1] - from[axis]));
-                low += least(a, b);
-                high += most(a, b);
-                size += most(a.abs(), b.abs());
-                if SLOPE {
-                    let [c, d] = by[axis].map(|v| g * v);
-                    slope = [slope[0] + least(c, d), slope[1] + most(c, d)];
+    /// Over boxes in cells.
+    #[inline(always)]
+    fn in_cells<const SLOPE: bool>(&self, batch: &Batch) -> [Ends; 2] {
+        let mut gradients = [[[0.0; LANES]; 3]; 8];
+        for slot in 0..batch.len {
+            let corners = self.corners(batch.corners[slot]);
+            for index in 0..8 {
+                for axis in 0..3 {
+                    gradients[index][axis][slot] = corners[index][axis];
                 }
             }
-            let off = 8.0 * f64::EPSILON * size;
-            [[low - off, high + off], slope]
-        };
-        let along = |axis: usize, a: One, b: One| -> One {
-            let [weight, growth] = weights[axis];
-            let value = blend(weight, a[0], b[0]);
-            if !SLOPE {
-                return [value, [0.0; 2]];
+        }
+        let mut weights = [[[[0.0; LANES]; 2]; 2]; 3];
+        for axis in 0..3 {
+            for lane in 0..LANES {
+                let ends = [batch.p[axis][0][lane], batch.p[axis][1][lane]];
+                let [value, growth] = self.weight(ends, SLOPE);
+                for end in 0..2 {
+                    weights[axis][0][end][lane] = value[end];
+                    weights[axis][1][end][lane] = growth[end];
+                }
             }
-            let [c, d] = blend(weight, a[1], b[1]);
-            let rise = times(times(growth, by[axis]), [b[0][0] - a[0][1], b[0][1] - a[0][0]]);
-            [value, [c + rise[0], d + rise[1]]]
-        };
-        let low = along(1, along(0, product(0), product(1)), along(0, product(2), product(3)));
-        let high = along(1, along(0, product(4), product(5)), along(0, product(6), product(7)));
-        along(2, low, high)
+        }
+        // The products of gradient and distance at the corners, then what is between.
+        let mut values = [[[0.0; LANES]; 2]; 8];
+        let mut slopes = [[[0.0; LANES]; 2]; 8];
+        for index in 0..8 {
+            let from = [index & 1, (index >> 1) & 1, index >> 2].map(|side| side as f64);
+            for lane in 0..LANES {
+                let (mut low, mut high, mut size) = (0.0, 0.0, 0.0);
+                let mut slope = [0.0; 2];
+                for axis in 0..3 {
+                    let g = gradients[index][axis][lane];
+                    let (a, b) = (
+                        g * (batch.p[axis][0][lane] - from[axis]),
+                        g * (batch.p[axis][1][lane] - from[axis]),
+                    );
+                    low += least(a, b);
+                    high += most(a, b);
+                    size += most(a.abs(), b.abs());
+                    if SLOPE {
+                        let (c, d) = (g * batch.by[axis][0][lane], g * batch.by[axis][1][lane]);
+                        slope = [slope[0] + least(c, d), slope[1] + most(c, d)];
+                    }
+                }
+                let off = 8.0 * f64::EPSILON * size;
+                (values[index][0][lane], values[index][1][lane]) = (low - off, high + off);
+                (slopes[index][0][lane], slopes[index][1][lane]) = (slope[0], slope[1]);
+            }
+        }
+        for axis in 0..3 {
+            for pair in 0..4 >> axis {
+                for lane in 0..LANES {
+                    let ends = |of: &[Ends; 8], index: usize| [of[index][0][lane], of[index][1][lane]];
+                    let weight = |part: usize| [weights[axis][part][0][lane], weights[axis][part][1][lane]];
+                    let (a, b) = (ends(&values, 2 * pair), ends(&values, 2 * pair + 1));
+                    let value = blend(weight(0), a, b);
+                    if SLOPE {
+                        let [c, d] = blend(weight(0), ends(&slopes, 2 * pair), ends(&slopes, 2 * pair + 1));
+                        let by = [batch.by[axis][0][lane], batch.by[axis][1][lane]];
+                        let rise = times(times(weight(1), by), [b[0] - a[1], b[1] - a[0]]);
+                        (slopes[pair][0][lane], slopes[pair][1][lane]) = (c + rise[0], d + rise[1]);
+                    }
+                    (values[pair][0][lane], values[pair][1][lane]) = (value[0], value[1]);
+                }
+            }
+        }
+        [values[0], slopes[0]]
     }
 
     /// The gradients at the corners of a cell: x first, then y, then z.
+    #[inline(always)]
     fn corners(&self, corner: [f64; 3]) -> [[f64; 3]; 8] {
-        let [i, j, k] = match self.kind {
-            NoiseKind::Improved => corner.map(cell),
-            NoiseKind::Classic => corner.map(|v| classic_cell(v + 256.0)),
+        let [x, y, z] = corner;
+        let is_improved = self.kind == NoiseKind::Improved;
+        let [i, j, k] = if is_improved {
+            [cell(x), cell(y), cell(z)]
+        } else {
+            [classic_cell(x + 256.0), classic_cell(y + 256.0), classic_cell(z + 256.0)]
         };
-        let hash = |i: u64| u64::from(self.permutation[(i & 255) as usize]);
-        std::array::from_fn(|index| {
-            let [a, b, c] = [index & 1, (index >> 1) & 1, index >> 2].map(|side| side as u64);
-            let h = hash(hash(i.wrapping_add(a)) + j.wrapping_add(b) % 256) + k.wrapping_add(c) % 256;
-            let h = if self.kind == NoiseKind::Improved { hash(h) } else { h };
-            self.gradients[(h & 255) as usize]
-        })
+        let mut gradients = [[0.0; 3]; 8];
+        for index in 0..8u64 {
+            let [a, b, c] = [index & 1, (index >> 1) & 1, index >> 2];
+            let h =
+                self.hash(self.hash(i.wrapping_add(a)) + j.wrapping_add(b) % 256) + k.wrapping_add(c) % 256;
+            let h = if is_improved { self.hash(h) } else { h };
+            gradients[index as usize] = self.gradients[(h & 255) as usize];
+        }
+        gradients
+    }
+
+    #[inline(always)]
+    fn hash(&self, i: u64) -> u64 {
+        u64::from(self.permutation[(i & 255) as usize])
     }
 
     /// The weight of the farther corner along an axis, and how it grows.
-    fn weight(&self, [a, b]: [f64; 2], slope: bool) -> One {
+    #[inline(always)]
+    fn weight(&self, [a, b]: [f64; 2], slope: bool) -> [[f64; 2]; 2] {
         const OFF: f64 = 16.0 * f64::EPSILON;
-        let improved = self.kind == NoiseKind::Improved;
-        let at = |t: f64| {
-            if improved { t * t * t * (t * (t * 6.0 - 15.0) + 10.0) } else { t * t * (3.0 - 2.0 * t) }
-        };
-        let value = [most(at(a) - OFF, 0.0), least(at(b) + OFF, 1.0 + OFF)];
+        let is_improved = self.kind == NoiseKind::Improved;
+        let (from, to) = (weight(is_improved, a), weight(is_improved, b));
+        let value = [most(from - OFF, 0.0), least(to + OFF, 1.0 + OFF)];
         if !slope {
             return [value, [0.0; 2]];
         }
-        let growth =
-            |t: f64| if improved { 30.0 * t * t * (t - 1.0) * (t - 1.0) } else { 6.0 * t * (1.0 - t) };
-        let (p, q) = (growth(a), growth(b));
-        let high = if a <= 0.5 && b >= 0.5 { growth(0.5) } else { most(p, q) };
+        let (p, q) = (growth(is_improved, a), growth(is_improved, b));
+        let high = if a <= 0.5 && b >= 0.5 { growth(is_improved, 0.5) } else { most(p, q) };
         [value, [most(least(p, q) - OFF, 0.0), high + OFF]]
     }
+}
+
+/// The weight of the farther corner of a unit cell.
+#[inline(always)]
+fn weight(is_improved: bool, t: f64) -> f64 {
+    if is_improved { t * t * t * (t * (t * 6.0 - 15.0) + 10.0) } else { t * t * (3.0 - 2.0 * t) }
+}
+
+/// How it grows.
+#[inline(always)]
+fn growth(is_improved: bool, t: f64) -> f64 {
+    if is_improved { 30.0 * t * t * (t - 1.0) * (t - 1.0) } else { 6.0 * t * (1.0 - t) }
 }
 
 /// One of the twelve directions to the edges of a cube.
@@ -181,24 +299,28 @@ fn edge(hash: u64) -> [f64; 3] {
 }
 
 /// Between two ranges, by a weight from 0 to 1. What is between rises with both.
+#[inline(always)]
 fn blend(weight: [f64; 2], a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
-    let at = |t: f64, side: usize| a[side] + t * (b[side] - a[side]);
-    let low = least(at(weight[0], 0), at(weight[1], 0));
-    let high = most(at(weight[0], 1), at(weight[1], 1));
+    let (rise, rise_high) = (b[0] - a[0], b[1] - a[1]);
+    let low = least(a[0] + weight[0] * rise, a[0] + weight[1] * rise);
+    let high = most(a[1] + weight[0] * rise_high, a[1] + weight[1] * rise_high);
     let off = 4.0 * f64::EPSILON * most(most(a[0].abs(), a[1].abs()), most(b[0].abs(), b[1].abs()));
     [low - off, high + off]
 }
 
+/// The product of two ranges with finite ends.
+#[inline(always)]
 fn times([a, b]: [f64; 2], [c, d]: [f64; 2]) -> [f64; 2] {
-    let product = |x: f64, y: f64| if x == 0.0 || y == 0.0 { 0.0 } else { x * y };
-    let (p, q, r, s) = (product(a, c), product(a, d), product(b, c), product(b, d));
+    let (p, q, r, s) = (a * c, a * d, b * c, b * d);
     [least(least(p, q), least(r, s)), most(most(p, q), most(r, s))]
 }
 
+#[inline(always)]
 fn least(a: f64, b: f64) -> f64 {
     if a < b { a } else { b }
 }
 
+#[inline(always)]
 fn most(a: f64, b: f64) -> f64 {
     if a > b { a } else { b }
 }

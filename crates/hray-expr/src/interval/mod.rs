@@ -60,12 +60,22 @@ struct Body {
 /// Working memory of a [`RangePlan`], kept from call to call.
 #[derive(Default)]
 pub struct RangeScratch {
-    values: Vec<Dual>,
+    values: Vec<Range>,
+    /// Only where they are asked for.
+    slopes: Vec<Range>,
     /// Results of blocks, one after the other.
     results: Vec<Dual>,
     /// Where those of a node start.
     starts: Vec<u32>,
 }
+
+#[inline(always)]
+fn pick<const SLOPE: bool>(values: &[Range], slopes: &[Range], index: usize) -> Dual {
+    Dual { value: values[index], slope: if SLOPE { slopes[index] } else { Range::ZERO } }
+}
+
+/// Where no slopes are asked for.
+const NO_DIRECTION: [Range; 3] = [Range::ZERO; 3];
 
 impl RangePlan {
     /// Makes a function ready.
@@ -92,12 +102,11 @@ impl RangePlan {
     /// What the function may be in each of eight boxes, given by the ranges of x, y and z.
     #[must_use]
     pub fn values(&self, level: Level, p: &[Range; 3], scratch: &mut RangeScratch) -> Range {
-        let p = p.map(|value| Dual { value, slope: Range::ZERO });
         dispatch!(level, simd => {
             let _ = simd;
-            self.run::<false>(&p, scratch);
+            self.run::<false>(p, &NO_DIRECTION, scratch);
         });
-        scratch.values.get(self.output).map_or(Range::ENTIRE, |dual| dual.value)
+        scratch.values.get(self.output).copied().unwrap_or(Range::ENTIRE)
     }
 
     /// The same, and how fast it may change where x, y and z change by `direction`.
@@ -109,76 +118,108 @@ impl RangePlan {
         direction: &[Range; 3],
         scratch: &mut RangeScratch,
     ) -> [Range; 2] {
-        let p = [0, 1, 2].map(|axis| Dual { value: p[axis], slope: direction[axis] });
         dispatch!(level, simd => {
             let _ = simd;
-            self.run::<true>(&p, scratch);
+            self.run::<true>(p, direction, scratch);
         });
-        scratch.values.get(self.output).map_or([Range::ENTIRE; 2], |dual| [dual.value, dual.slope])
+        match (scratch.values.get(self.output), scratch.slopes.get(self.output)) {
+            (Some(value), Some(slope)) => [*value, *slope],
+            _ => [Range::ENTIRE; 2],
+        }
     }
 
     #[inline(always)]
-    fn run<const SLOPE: bool>(&self, p: &[Dual; 3], scratch: &mut RangeScratch) {
-        self.steps::<SLOPE>(&self.nodes, p, &[], scratch);
+    fn run<const SLOPE: bool>(&self, p: &[Range; 3], direction: &[Range; 3], scratch: &mut RangeScratch) {
+        self.steps::<SLOPE>(&self.nodes, p, direction, &[], scratch);
     }
 
     #[inline(always)]
     fn steps<const SLOPE: bool>(
         &self,
         steps: &[Step],
-        p: &[Dual; 3],
+        p: &[Range; 3],
+        direction: &[Range; 3],
         arguments: &[Dual],
         scratch: &mut RangeScratch,
     ) {
-        let RangeScratch { values, results, starts } = scratch;
+        let RangeScratch { values, slopes, results, starts } = scratch;
         values.clear();
+        slopes.clear();
         results.clear();
         starts.clear();
         for step in steps {
-            starts.push(results.len() as u32);
-            let value = match step {
+            let dual = match step {
                 Step::Node(node) => match node {
                     Node::Constant(v) => Dual::constant(*v),
-                    Node::Input(Input::Px) => p[0],
-                    Node::Input(Input::Py) => p[1],
-                    Node::Input(Input::Pz) => p[2],
+                    Node::Input(Input::Px) => Dual { value: p[0], slope: direction[0] },
+                    Node::Input(Input::Py) => Dual { value: p[1], slope: direction[1] },
+                    Node::Input(Input::Pz) => Dual { value: p[2], slope: direction[2] },
                     Node::Input(_) => Dual::ENTIRE,
                     Node::Argument(i) => arguments[*i as usize],
-                    Node::Unary(f, a) => Dual::unary::<SLOPE>(*f, &values[a.index()]),
-                    Node::Binary(f, a, b) => {
-                        Dual::binary::<SLOPE>(*f, &values[a.index()], &values[b.index()], a == b)
-                    }
-                    Node::Select(condition, a, b) => {
-                        let [condition, a, b] = [condition, a, b].map(|id| &values[id.index()]);
-                        Dual::select::<SLOPE>(condition, a, b)
-                    }
+                    Node::Unary(f, a) => Dual::unary::<SLOPE>(*f, &pick::<SLOPE>(values, slopes, a.index())),
+                    Node::Binary(f, a, b) => Dual::binary::<SLOPE>(
+                        *f,
+                        &pick::<SLOPE>(values, slopes, a.index()),
+                        &pick::<SLOPE>(values, slopes, b.index()),
+                        a == b,
+                    ),
+                    Node::Select(condition, a, b) => Dual::select::<SLOPE>(
+                        &pick::<SLOPE>(values, slopes, condition.index()),
+                        &pick::<SLOPE>(values, slopes, a.index()),
+                        &pick::<SLOPE>(values, slopes, b.index()),
+                    ),
                     Node::Result(block, i) => results[starts[block.index()] as usize + usize::from(*i)],
                     Node::Noise(..) | Node::Block(..) => Dual::ENTIRE,
                 },
-                Step::Noise { lattice, p } => {
-                    self.lattices[*lattice].over::<SLOPE>(p.each_ref().map(|i| &values[*i]))
-                }
+                Step::Noise { lattice, p } => self.lattices[*lattice].over::<SLOPE>([
+                    &pick::<SLOPE>(values, slopes, p[0]),
+                    &pick::<SLOPE>(values, slopes, p[1]),
+                    &pick::<SLOPE>(values, slopes, p[2]),
+                ]),
                 Step::Image { image, all, at } => {
-                    results.extend(image_range::<SLOPE>(image, all, at.each_ref().map(|i| &values[*i])));
+                    starts.resize(values.len() + 1, results.len() as u32);
+                    results.extend(image_range::<SLOPE>(
+                        image,
+                        all,
+                        [&pick::<SLOPE>(values, slopes, at[0]), &pick::<SLOPE>(values, slopes, at[1])],
+                    ));
                     Dual::ENTIRE
                 }
                 Step::Cells { seed, p } => {
-                    results.extend(cell_ranges::<SLOPE>(*seed, p.each_ref().map(|i| &values[*i])));
+                    starts.resize(values.len() + 1, results.len() as u32);
+                    results.extend(cell_ranges::<SLOPE>(
+                        *seed,
+                        [
+                            &pick::<SLOPE>(values, slopes, p[0]),
+                            &pick::<SLOPE>(values, slopes, p[1]),
+                            &pick::<SLOPE>(values, slopes, p[2]),
+                        ],
+                    ));
                     Dual::ENTIRE
                 }
                 Step::Loop { body, arguments } => {
-                    let initial = arguments.iter().map(|i| values[*i]).collect();
-                    results.extend(self.repeat::<SLOPE>(body, p, initial));
+                    starts.resize(values.len() + 1, results.len() as u32);
+                    let initial = arguments.iter().map(|i| pick::<SLOPE>(values, slopes, *i)).collect();
+                    results.extend(self.repeat::<SLOPE>(body, p, direction, initial));
                     Dual::ENTIRE
                 }
             };
-            values.push(value);
+            values.push(dual.value);
+            if SLOPE {
+                slopes.push(dual.slope);
+            }
         }
     }
 
     /// What the state may be after a loop: the hull of what it is wherever it may end.
     #[inline(never)]
-    fn repeat<const SLOPE: bool>(&self, body: &Body, p: &[Dual; 3], mut arguments: Vec<Dual>) -> Vec<Dual> {
+    fn repeat<const SLOPE: bool>(
+        &self,
+        body: &Body,
+        p: &[Range; 3],
+        direction: &[Range; 3],
+        mut arguments: Vec<Dual>,
+    ) -> Vec<Dual> {
         let Loop { state, max, until, step, .. } = &body.definition;
         let mut scratch = RangeScratch::default();
         let (mut running, mut jumps) = ([true; LANES], [false; LANES]);
@@ -189,8 +230,8 @@ impl RangePlan {
             }
         };
         for _ in 0..*max {
-            self.steps::<SLOPE>(&body.steps, p, &arguments, &mut scratch);
-            let [surely, surely_not] = scratch.values[until.index()].value.certain();
+            self.steps::<SLOPE>(&body.steps, p, direction, &arguments, &mut scratch);
+            let [surely, surely_not] = scratch.values[until.index()].certain();
             let may_end: [bool; LANES] = std::array::from_fn(|lane| running[lane] && !surely_not[lane]);
             if may_end.contains(&true) {
                 collect(&mut ended, &arguments, may_end);
@@ -203,7 +244,8 @@ impl RangePlan {
             if !running.contains(&true) {
                 break;
             }
-            let next: Vec<Dual> = step.iter().map(|id| scratch.values[id.index()]).collect();
+            let next: Vec<Dual> =
+                step.iter().map(|id| pick::<SLOPE>(&scratch.values, &scratch.slopes, id.index())).collect();
             arguments.iter_mut().zip(next).for_each(|(argument, next)| *argument = next);
         }
         if running.contains(&true) {

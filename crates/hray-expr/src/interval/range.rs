@@ -91,109 +91,139 @@ impl Range {
     /// The least range that holds both; an empty one adds nothing.
     #[inline(always)]
     pub(super) fn hull(self, other: Self) -> Self {
-        self.zip(other, |a, b, c, d| {
-            [if a <= c || c.is_nan() { a } else { c }, if b >= d || d.is_nan() { b } else { d }]
-        })
+        self.zip(
+            other,
+            #[inline(always)]
+            |a, b, c, d| [if a <= c || c.is_nan() { a } else { c }, if b >= d || d.is_nan() { b } else { d }],
+        )
     }
 
     #[inline(always)]
     pub(super) fn neg(self) -> Self {
-        Self { low: self.high.map(|v| -v), high: self.low.map(|v| -v) }
+        self.map(
+            #[inline(always)]
+            |a, b| [-b, -a],
+        )
     }
 
     #[inline(always)]
     pub(super) fn add(self, other: Self) -> Self {
-        self.zip(other, |a, b, c, d| whole(a + c, b + d, a, c))
+        self.zip(
+            other,
+            #[inline(always)]
+            |a, b, c, d| whole(a + c, b + d, a, c),
+        )
     }
 
     #[inline(always)]
     pub(super) fn sub(self, other: Self) -> Self {
-        self.zip(other, |a, b, c, d| whole(a - d, b - c, a, c))
+        self.zip(
+            other,
+            #[inline(always)]
+            |a, b, c, d| whole(a - d, b - c, a, c),
+        )
     }
 
     #[inline(always)]
     pub(super) fn mul(self, other: Self) -> Self {
-        self.zip(other, |a, b, c, d| {
-            // 0 times infinity is 0: an end that is infinite is one that no number reaches.
-            let product = |x: f64, y: f64| {
-                let p = x * y;
-                if p.is_nan() { 0.0 } else { p }
-            };
-            let (p, q, r, s) = (product(a, c), product(a, d), product(b, c), product(b, d));
-            let low = least(least(p, q), least(r, s));
-            let high = most(most(p, q), most(r, s));
-            if a.is_nan() || c.is_nan() { [f64::NAN; 2] } else { [low, high] }
-        })
+        self.zip(
+            other,
+            #[inline(always)]
+            |a, b, c, d| {
+                let (p, q, r, s) = (product(a, c), product(a, d), product(b, c), product(b, d));
+                let low = least(least(p, q), least(r, s));
+                let high = most(most(p, q), most(r, s));
+                if a.is_nan() || c.is_nan() { [f64::NAN; 2] } else { [low, high] }
+            },
+        )
     }
 
     /// Of the same number with itself.
     #[inline(always)]
     pub(super) fn square(self) -> Self {
-        self.map(|a, b| {
-            let (p, q) = (a * a, b * b);
-            let low = if a <= 0.0 && b >= 0.0 { 0.0 } else { least(p, q) };
-            [low, most(p, q)]
-        })
+        self.map(
+            #[inline(always)]
+            |a, b| {
+                let (p, q) = (a * a, b * b);
+                let low = if a <= 0.0 && b >= 0.0 { 0.0 } else { least(p, q) };
+                [low, most(p, q)]
+            },
+        )
     }
 
     #[inline(always)]
     pub(super) fn div(self, other: Self) -> Self {
-        self.zip(other, |a, b, c, d| {
-            if a.is_nan() || c.is_nan() {
-                return [f64::NAN; 2];
-            }
-            if c > 0.0 || d < 0.0 {
-                let quotient = |x: f64, y: f64| {
-                    let q = x / y;
-                    if q.is_nan() { 0.0 } else { q }
-                };
-                let (p, q, r, s) = (quotient(a, c), quotient(a, d), quotient(b, c), quotient(b, d));
-                // Infinity by infinity may be anything in between.
-                let endless = (a.is_infinite() || b.is_infinite()) && (c.is_infinite() || d.is_infinite());
-                let low = least(least(p, q), least(r, s));
-                let high = most(most(p, q), most(r, s));
-                return if endless {
-                    [least(low, if a < 0.0 || b < 0.0 { low } else { 0.0 }), most(high, 0.0)]
-                } else {
-                    [low, high]
-                };
-            }
-            if a == 0.0 && b == 0.0 {
-                return [0.0; 2];
-            }
-            // 0 is the least or the greatest of what is divided by, or within.
-            match (c == 0.0, d == 0.0) {
-                (true, false) if a >= 0.0 => [a / d, f64::INFINITY],
-                (true, false) if b <= 0.0 => [f64::NEG_INFINITY, b / d],
-                (false, true) if a >= 0.0 => [f64::NEG_INFINITY, a / c],
-                (false, true) if b <= 0.0 => [b / c, f64::INFINITY],
-                _ => [f64::NEG_INFINITY, f64::INFINITY],
-            }
-        })
+        self.zip(
+            other,
+            #[inline(always)]
+            |a, b, c, d| {
+                if a.is_nan() || c.is_nan() {
+                    return [f64::NAN; 2];
+                }
+                if c > 0.0 || d < 0.0 {
+                    let (p, q, r, s) = (quotient(a, c), quotient(a, d), quotient(b, c), quotient(b, d));
+                    // Infinity by infinity may be anything in between.
+                    let endless =
+                        (a.is_infinite() || b.is_infinite()) && (c.is_infinite() || d.is_infinite());
+                    let low = least(least(p, q), least(r, s));
+                    let high = most(most(p, q), most(r, s));
+                    return if endless {
+                        [least(low, if a < 0.0 || b < 0.0 { low } else { 0.0 }), most(high, 0.0)]
+                    } else {
+                        [low, high]
+                    };
+                }
+                if a == 0.0 && b == 0.0 {
+                    return [0.0; 2];
+                }
+                // 0 is the least or the greatest of what is divided by, or within.
+                match (c == 0.0, d == 0.0) {
+                    (true, false) if a >= 0.0 => [a / d, f64::INFINITY],
+                    (true, false) if b <= 0.0 => [f64::NEG_INFINITY, b / d],
+                    (false, true) if a >= 0.0 => [f64::NEG_INFINITY, a / c],
+                    (false, true) if b <= 0.0 => [b / c, f64::INFINITY],
+                    _ => [f64::NEG_INFINITY, f64::INFINITY],
+                }
+            },
+        )
     }
 
     #[inline(always)]
     pub(super) fn min(self, other: Self) -> Self {
-        self.zip(other, |a, b, c, d| [least(a, c), least(b, d)])
+        self.zip(
+            other,
+            #[inline(always)]
+            |a, b, c, d| [least(a, c), least(b, d)],
+        )
     }
 
     #[inline(always)]
     pub(super) fn max(self, other: Self) -> Self {
-        self.zip(other, |a, b, c, d| [most(a, c), most(b, d)])
+        self.zip(
+            other,
+            #[inline(always)]
+            |a, b, c, d| [most(a, c), most(b, d)],
+        )
     }
 
     #[inline(always)]
     pub(super) fn abs(self) -> Self {
-        self.map(|a, b| {
-            let low = if a <= 0.0 && b >= 0.0 { 0.0 } else { least(a.abs(), b.abs()) };
-            [low, most(a.abs(), b.abs())]
-        })
+        self.map(
+            #[inline(always)]
+            |a, b| {
+                let low = if a <= 0.0 && b >= 0.0 { 0.0 } else { least(a.abs(), b.abs()) };
+                [low, most(a.abs(), b.abs())]
+            },
+        )
     }
 
     #[inline(always)]
     pub(super) fn sqrt(self) -> Self {
         // Where there is no root there is no value.
-        self.map(|a, b| [if b >= 0.0 { most(a, 0.0).sqrt() } else { f64::NAN }, b.sqrt()])
+        self.map(
+            #[inline(always)]
+            |a, b| [if b >= 0.0 { most(a, 0.0).sqrt() } else { f64::NAN }, b.sqrt()],
+        )
     }
 
     /// A function of one number that rises, from [`Unary`]; one of `libm` is widened.
@@ -252,20 +282,30 @@ impl Range {
     }
 
     /// The power of a whole number from 1 on.
+    #[inline(always)]
     pub(super) fn whole_power(self, exponent: u32) -> Self {
-        let power = |v: f64| (0..exponent).fold(1.0, |product, _| product * v);
         let off = f64::EPSILON * f64::from(exponent) + LIBM;
-        self.map(|a, b| {
-            let (p, q) = (power(a), power(b));
-            let [low, high] = if exponent % 2 == 1 {
-                [p, q]
-            } else if a <= 0.0 && b >= 0.0 {
-                [0.0, most(p, q)]
-            } else {
-                [least(p, q), most(p, q)]
-            };
-            wider_by(off, low, high)
-        })
+        let mut powers = Self::from_ends(1.0, 1.0);
+        for _ in 0..exponent {
+            for lane in 0..LANES {
+                powers.low[lane] *= self.low[lane];
+                powers.high[lane] *= self.high[lane];
+            }
+        }
+        self.zip(
+            powers,
+            #[inline(always)]
+            |a, b, p, q| {
+                let [low, high] = if exponent % 2 == 1 {
+                    [p, q]
+                } else if a <= 0.0 && b >= 0.0 {
+                    [0.0, most(p, q)]
+                } else {
+                    [least(p, q), most(p, q)]
+                };
+                wider_by(off, low, high)
+            },
+        )
     }
 
     /// Any power. Of a number below 0 only whole powers have a value.
@@ -373,6 +413,7 @@ impl Range {
     }
 
     /// Where it is certain that this is not 0, and where it is certain that it is.
+    #[inline(always)]
     pub(super) fn certain(&self) -> [[bool; LANES]; 2] {
         let mut out = [[false; LANES]; 2];
         for lane in 0..LANES {
@@ -384,10 +425,12 @@ impl Range {
     }
 }
 
+#[inline(always)]
 fn holds_zero(a: f64, b: f64) -> bool {
     a <= 0.0 && b >= 0.0
 }
 
+#[inline(always)]
 fn is_zero(a: f64, b: f64) -> bool {
     a == 0.0 && b == 0.0
 }
@@ -401,6 +444,20 @@ fn whole(low: f64, high: f64, a: f64, c: f64) -> [f64; 2] {
     [if low.is_nan() { f64::NEG_INFINITY } else { low }, if high.is_nan() { f64::INFINITY } else { high }]
 }
 
+/// 0 times infinity is 0: an end that is infinite is one that no number reaches.
+#[inline(always)]
+fn product(x: f64, y: f64) -> f64 {
+    let p = x * y;
+    if p.is_nan() { 0.0 } else { p }
+}
+
+/// The same.
+#[inline(always)]
+fn quotient(x: f64, y: f64) -> f64 {
+    let q = x / y;
+    if q.is_nan() { 0.0 } else { q }
+}
+
 #[inline(always)]
 fn least(a: f64, b: f64) -> f64 {
     if a < b { a } else { b }
@@ -412,12 +469,15 @@ fn most(a: f64, b: f64) -> f64 {
 }
 
 /// By what `libm` may be off.
+#[inline(always)]
 fn wider(low: f64, high: f64) -> [f64; 2] {
     wider_by(LIBM, low, high)
 }
 
+#[inline(always)]
 fn wider_by(share: f64, low: f64, high: f64) -> [f64; 2] {
     // Infinity stays as it is.
-    let off = |v: f64| if v.is_finite() { v.abs() * share } else { 0.0 };
-    [low - off(low), high + off(high)]
+    let off_low = if low.is_finite() { low.abs() * share } else { 0.0 };
+    let off_high = if high.is_finite() { high.abs() * share } else { 0.0 };
+    [low - off_low, high + off_high]
 }

@@ -93,6 +93,7 @@ fn write_primitive(out: &mut impl fmt::Write, primitive: &Primitive) -> fmt::Res
         | Shape::Disc(_)
         | Shape::Torus(_)
         | Shape::Quadric(_)
+        | Shape::Implicit(_)
         | Shape::Csg(_)
         | Shape::Mesh(_) => return Err(CANNOT_SAY),
     }

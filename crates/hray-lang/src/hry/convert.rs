@@ -246,6 +246,7 @@ fn object(primitive: &Primitive, materials: &Materials) -> Option<Node> {
         | Shape::Disc(_)
         | Shape::Torus(_)
         | Shape::Quadric(_)
+        | Shape::Implicit(_)
         | Shape::Csg(_)
         | Shape::Mesh(_) => return None,
     })

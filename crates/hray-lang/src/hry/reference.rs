@@ -73,6 +73,7 @@ fn takes(field: &FieldSpec) -> String {
         FieldType::Encoding => "Encoding",
         FieldType::Background => "Color or Vec3 -> Color",
         FieldType::Height => "Hit -> Number",
+        FieldType::Space => "Vec3 -> Number",
     };
     if field.unit.is_empty() { kind.to_owned() } else { format!("{kind}, {}", field.unit) }
 }

@@ -19,8 +19,14 @@ pub enum Level {
 }
 
 /// The level of every lint; [`Level::Warn`] to begin with.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub struct LintLevels([Level; LINTS.len()]);
+
+impl Default for LintLevels {
+    fn default() -> Self {
+        Self([Level::default(); LINTS.len()])
+    }
+}
 
 impl LintLevels {
     /// Sets the level of the lint with this code, or of all with [`ALL_LINTS`]. A later call overrides an

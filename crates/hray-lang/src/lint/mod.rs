@@ -50,6 +50,14 @@ const VALUES: &[Lint] = &[
         "camera-inside-sphere",
         "The camera is inside a sphere that lets no light through, and no light is in there: the picture is dark.",
     ),
+    lint(
+        "no-surface",
+        "The function of an implicit surface is 0 nowhere in its box, so there is nothing to see.",
+    ),
+    lint(
+        "unbounded-function",
+        "The function of an implicit surface may be 0 and infinite in one place, however small: its surface may have flaws there.",
+    ),
     lint("no-objects", "The scene has no objects, so only the background is seen."),
     lint(
         "not-read",

@@ -114,7 +114,7 @@ impl Cells {
         let [o, d] = [start, direction].map(|v| v.to_array().map(|x| x as f32));
         let narrowed = hray_bvh::Ray::new(simd, o, d, 0.0, f32::MAX, tree.reach());
         tree.visit(simd, &narrowed, stack, |units| {
-            for cell in &self.cells[units] {
+            for &cell in &self.cells[units] {
                 let [enter, exit] = self.through(ray, cell);
                 let (from, to) = (enter.max(near), exit.min(far));
                 if from < to {
@@ -131,13 +131,19 @@ impl Cells {
         });
     }
 
+    #[inline(always)]
+    fn corner(&self, x: u16, y: u16, z: u16) -> DVec3 {
+        DVec3::new(
+            face(self.min.x, self.max.x, self.count, x),
+            face(self.min.y, self.max.y, self.count, y),
+            face(self.min.z, self.max.z, self.count, z),
+        )
+    }
+
     /// The distances at which a ray enters a cell and leaves it. Cells that share a face have the same distance there.
     #[inline(always)]
-    fn through(&self, ray: &Ray, cell: &[u16; 3]) -> [f64; 2] {
-        let faces = [0, 1].map(|side| {
-            [0, 1, 2].map(|axis| face(self.min[axis], self.max[axis], self.count, cell[axis] + side))
-        });
-        between(ray, faces.map(DVec3::from))
+    fn through(&self, ray: &Ray, [x, y, z]: [u16; 3]) -> [f64; 2] {
+        between(ray, [self.corner(x, y, z), self.corner(x + 1, y + 1, z + 1)])
     }
 }
 
@@ -162,5 +168,6 @@ pub(super) fn between(ray: &Ray, [min, max]: [DVec3; 2]) -> [f64; 2] {
 /// The coordinate of a face between cells.
 #[inline(always)]
 fn face(min: f64, max: f64, count: u16, number: u16) -> f64 {
-    if number == count { max } else { min + (max - min) * (f64::from(number) / f64::from(count)) }
+    // The number of cells is a power of 2, so the reciprocal is exact, and loops take it out.
+    if number == count { max } else { min + (max - min) * (f64::from(number) * (1.0 / f64::from(count))) }
 }

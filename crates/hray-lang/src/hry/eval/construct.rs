@@ -279,7 +279,7 @@ impl<'m, 'a> Fields<'m, 'a> {
         }
     }
 
-    fn vector(&mut self, name: &str) -> Outcome<DVec3> {
+    pub(super) fn vector(&mut self, name: &str) -> Outcome<DVec3> {
         self.three(name).map(DVec3::from)
     }
 
@@ -356,6 +356,7 @@ impl<'m, 'a> Fields<'m, 'a> {
                 }
                 Shape::Quadric(Arc::new(Quadric { square, product, linear, constant }))
             }
+            "implicit" => self.implicit()?,
             name => return Err(internal(self.span, &format!("a shape `{name}` that is not made")).into()),
         };
         let origin = self.machine.origin(self.span);

@@ -3,6 +3,7 @@
 use super::code::{Binding, Capture, Code, CodeKind, FieldName, FunctionCode, Lambda};
 use super::compile::{Compiler, Symbols, internal};
 use super::failure::{Failure, Outcome};
+use super::implicit;
 use super::limits::{Limits, Meter};
 use super::mesh::Prepared;
 use super::origins::Places;
@@ -59,6 +60,8 @@ pub(super) struct Machine<'a> {
     pub(super) models: BTreeMap<(String, Option<bool>), Arc<Prepared>>,
     /// Values of the defaults of constructors' fields.
     pub(super) defaults: BTreeMap<(&'static str, usize), Value>,
+    /// Implicit surfaces made so far.
+    pub(super) surfaces: implicit::Known,
     pub(super) warnings: Vec<Diagnostic>,
     /// The places that made objects and lights.
     pub(super) places: Places,
@@ -101,6 +104,7 @@ impl<'a> Machine<'a> {
             images: BTreeMap::new(),
             models: BTreeMap::new(),
             defaults: BTreeMap::new(),
+            surfaces: implicit::Known::new(),
             warnings: Vec::new(),
             places: Places::default(),
             calls: Vec::new(),

@@ -13,6 +13,7 @@ mod color;
 mod compile;
 mod construct;
 mod failure;
+mod implicit;
 mod limits;
 mod lints;
 mod lists;

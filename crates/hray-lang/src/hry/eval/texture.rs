@@ -36,7 +36,7 @@ impl Machine<'_> {
     }
 
     /// Works a function out, for all hits at once. `outputs` says which numbers of its result are wanted.
-    fn compile(
+    pub(super) fn compile(
         &mut self,
         function: &Value,
         span: Span,
@@ -229,7 +229,7 @@ fn node(graph: &mut Builder, scalar: Scalar, span: Span) -> Outcome<NodeId> {
     }
 }
 
-fn single(graph: &mut Builder, value: &Value, span: Span) -> Outcome<NodeId> {
+pub(super) fn single(graph: &mut Builder, value: &Value, span: Span) -> Outcome<NodeId> {
     match parts(value) {
         Some((kind, [scalar, ..])) if kind.len() == 1 => node(graph, scalar, span),
         _ => Err(internal(span, &format!("{} where a number is needed", value.describe())).into()),

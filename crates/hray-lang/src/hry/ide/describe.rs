@@ -128,6 +128,7 @@ pub(super) fn field_type(field: &FieldSpec) -> String {
         FieldType::Encoding => "Encoding",
         FieldType::Background => "Color, Number or Vec3 -> Color",
         FieldType::Height => "Hit -> Number",
+        FieldType::Space => "Vec3 -> Number",
     };
     match (field.varies, field.kind) {
         (false, _) => plain.to_owned(),

@@ -253,6 +253,33 @@ pub const CONSTRUCTORS: &[Constructor] = &[
         ],
     },
     Constructor {
+        name: "implicit",
+        makes: Makes::Shape,
+        doc: "All points where a function of the point is 0. Inside is where it is less than 0. Any function will do, also one \
+              with noise, `min`, `max` and `if`; no bound of its slope has to be known.",
+        example: "implicit { function = \\p -> length p - 1 + 0.2 * noise (4 * p) }",
+        fields: &[
+            required("function", T::Space, "From a point to a number, such as the distance from a surface."),
+            with_default(
+                "size",
+                T::Vec3,
+                "",
+                "Lengths of the sides of a box along x, y and z. What is inside beyond the box is cut off. Where it is left out, \
+                 the surface must have an end, and the box is found.",
+            )
+            .range(Range::Positives)
+            .unit(UNITS),
+            with_default(
+                "center",
+                T::Vec3,
+                "(0, 0, 0)",
+                "The middle of that box; where `size` is left out, the surface is looked for around it.",
+            )
+            .unit(UNITS),
+            MATERIAL,
+        ],
+    },
+    Constructor {
         name: "mesh",
         makes: Makes::Shape,
         doc: "The triangles in a file: PLY, STL, OBJ, glTF 2.0 or GLB. A file of several parts gives all of them, each in \

@@ -57,6 +57,8 @@ pub enum FieldType {
     Background,
     /// A function from a hit to a number.
     Height,
+    /// A function from a point to a number.
+    Space,
 }
 
 /// The values that a field allows. Numbers must be finite everywhere.

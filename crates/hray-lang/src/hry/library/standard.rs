@@ -15,5 +15,6 @@ pub const STANDARD: &[StandardModule] = &[
     StandardModule { name: "colours", text: include_str!("../../../std/colours.hry") },
     StandardModule { name: "patterns", text: include_str!("../../../std/patterns.hry") },
     StandardModule { name: "noise", text: include_str!("../../../std/noise.hry") },
+    StandardModule { name: "surfaces", text: include_str!("../../../std/surfaces.hry") },
     StandardModule { name: "classic", text: include_str!("../../../std/classic.hry") },
 ];

@@ -145,7 +145,7 @@ impl<'p> Infer<'p> {
             }
         }
         self.solve();
-        if field.kind != FieldType::Height {
+        if !matches!(field.kind, FieldType::Height | FieldType::Space) {
             self.range(constructor, field, expr);
         }
         ty

@@ -332,6 +332,7 @@ impl Allowed {
                 Self { heads: NUMBER.or(Head::Color), from: Some(Ty::VEC3), ..plain(Head::Color) }
             }
             FieldType::Height => Self { from: Some(Ty::HIT), only_functions: true, ..plain(Head::Number) },
+            FieldType::Space => Self { from: Some(Ty::VEC3), only_functions: true, ..plain(Head::Number) },
             FieldType::Lights => list(Head::Light),
             FieldType::Shapes => list(Head::Shape),
             FieldType::Points => list(Head::Vec3),
@@ -360,6 +361,7 @@ impl Allowed {
             FieldType::Encoding => "Encoding",
             FieldType::Background => return "Color or Vec3 -> Color".into(),
             FieldType::Height => return "Hit -> Number".into(),
+            FieldType::Space => return "Vec3 -> Number".into(),
             FieldType::Lights => return "[Light]".into(),
             FieldType::Shapes => return "[Shape]".into(),
             FieldType::Points => return "[Vec3]".into(),

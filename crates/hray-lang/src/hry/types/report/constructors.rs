@@ -246,6 +246,11 @@ impl<'p> Infer<'p> {
             let gives = format!("the function gives {}, but has to give {plain}", self.words(result));
             return error.with_help(gives);
         }
+        if field.kind == FieldType::Space {
+            return error.with_help(
+                "a surface is where a function of a point is 0: `function = \\p -> length p - 1`",
+            );
+        }
         if field.kind == FieldType::Height {
             return error.with_help("bumps are a function: `bump = \\h -> 0.02 * sin (h.p.x * 40)`");
         }

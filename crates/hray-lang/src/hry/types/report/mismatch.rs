@@ -323,6 +323,7 @@ pub(super) fn field_words(field: &crate::hry::library::FieldSpec) -> String {
         T::Encoding => "an encoding",
         T::Background => "a colour, or a function from a direction to a colour",
         T::Height => "a function from a hit to a number",
+        T::Space => "a function from a point to a number",
     };
     if field.varies { format!("{plain}, or a function from a hit to one") } else { plain.into() }
 }
