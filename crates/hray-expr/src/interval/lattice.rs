@@ -9,9 +9,11 @@ use super::dual::Dual;
 use super::range::{Eight, LANES, Range};
 use crate::noise::{cell, classic_cell, improved_permutation};
 use crate::{NoiseKind, NoiseTables};
+use fearless_simd::f64x8;
+use fearless_simd::prelude::*;
 
 /// The most cells of a box that are looked at one by one.
-const MOST_CELLS: f64 = 27.0;
+const MOST_CELLS: f64 = 8.0;
 
 /// Noise of one kind and seed.
 pub(super) struct Lattice {
@@ -59,7 +61,7 @@ impl Lattice {
     }
 
     #[inline(always)]
-    pub(super) fn over<const SLOPE: bool>(&self, p: [&Dual; 3]) -> Dual {
+    pub(super) fn over<S: Simd, const SLOPE: bool>(&self, simd: S, p: [&Dual; 3]) -> Dual {
         let nowhere = Range::from_ends(f64::INFINITY, f64::NEG_INFINITY);
         let mut out = Dual { value: nowhere, slope: nowhere };
         let mut batch = Batch {
@@ -97,7 +99,7 @@ impl Lattice {
                 let [value, slope] = self.most;
                 let mut along = 0.0;
                 for [a, b] in by {
-                    along += most(a.abs(), b.abs());
+                    along += a.abs().max(b.abs());
                 }
                 out.value.set(lane, [-value, value]);
                 out.slope.set(lane, [-slope * along, slope * along]);
@@ -112,21 +114,21 @@ impl Lattice {
                         batch.corners[slot] = corner;
                         for axis in 0..3 {
                             let [low, high] = at[axis];
-                            batch.p[axis][0][slot] = most(low - corner[axis], 0.0);
-                            batch.p[axis][1][slot] = least(high - corner[axis], 1.0);
+                            batch.p[axis][0][slot] = (low - corner[axis]).max(0.0);
+                            batch.p[axis][1][slot] = (high - corner[axis]).min(1.0);
                             batch.by[axis][0][slot] = by[axis][0];
                             batch.by[axis][1][slot] = by[axis][1];
                         }
                         batch.len += 1;
                         if batch.len == LANES {
-                            self.add::<SLOPE>(&mut batch, &mut out);
+                            self.add::<S, SLOPE>(simd, &mut batch, &mut out);
                         }
                     }
                 }
             }
         }
         if batch.len > 0 {
-            self.add::<SLOPE>(&mut batch, &mut out);
+            self.add::<S, SLOPE>(simd, &mut batch, &mut out);
         }
         if SLOPE {
             // What changes without bound does so after this, too.
@@ -145,13 +147,13 @@ impl Lattice {
 
     /// Adds what the boxes of a batch can be to the lanes that they are of.
     #[inline(always)]
-    fn add<const SLOPE: bool>(&self, batch: &mut Batch, out: &mut Dual) {
-        let [value, slope] = self.in_cells::<SLOPE>(batch);
+    fn add<S: Simd, const SLOPE: bool>(&self, simd: S, batch: &mut Batch, out: &mut Dual) {
+        let [value, slope] = self.in_cells::<S, SLOPE>(simd, batch);
         for slot in 0..batch.len {
             let lane = batch.lanes[slot];
             let add = |range: &mut Range, [low, high]: [f64; 2]| {
-                range.low[lane] = least(low, range.low[lane]);
-                range.high[lane] = most(high, range.high[lane]);
+                range.low[lane] = range.low[lane].min(low);
+                range.high[lane] = range.high[lane].max(high);
             };
             add(&mut out.value, [value[0][slot], value[1][slot]]);
             add(&mut out.slope, [slope[0][slot], slope[1][slot]]);
@@ -161,7 +163,7 @@ impl Lattice {
 
     /// Over boxes in cells.
     #[inline(always)]
-    fn in_cells<const SLOPE: bool>(&self, batch: &Batch) -> [Ends; 2] {
+    fn in_cells<S: Simd, const SLOPE: bool>(&self, simd: S, batch: &Batch) -> [Ends; 2] {
         let mut gradients = [[[0.0; LANES]; 3]; 8];
         for slot in 0..batch.len {
             let corners = self.corners(batch.corners[slot]);
@@ -171,62 +173,63 @@ impl Lattice {
                 }
             }
         }
-        let mut weights = [[[[0.0; LANES]; 2]; 2]; 3];
-        for axis in 0..3 {
-            for lane in 0..LANES {
-                let ends = [batch.p[axis][0][lane], batch.p[axis][1][lane]];
-                let [value, growth] = self.weight(ends, SLOPE);
-                for end in 0..2 {
-                    weights[axis][0][end][lane] = value[end];
-                    weights[axis][1][end][lane] = growth[end];
-                }
-            }
-        }
+        let (p, by) = (&batch.p, &batch.by);
+        let p = [Two::load(simd, &p[0]), Two::load(simd, &p[1]), Two::load(simd, &p[2])];
+        let by = [Two::load(simd, &by[0]), Two::load(simd, &by[1]), Two::load(simd, &by[2])];
         // The products of gradient and distance at the corners, then what is between.
-        let mut values = [[[0.0; LANES]; 2]; 8];
-        let mut slopes = [[[0.0; LANES]; 2]; 8];
+        let zero = Two::splat(simd, 0.0);
+        let (mut values, mut slopes) = ([zero; 8], [zero; 8]);
         for index in 0..8 {
-            let from = [index & 1, (index >> 1) & 1, index >> 2].map(|side| side as f64);
-            for lane in 0..LANES {
-                let (mut low, mut high, mut size) = (0.0, 0.0, 0.0);
-                let mut slope = [0.0; 2];
-                for axis in 0..3 {
-                    let g = gradients[index][axis][lane];
-                    let (a, b) = (
-                        g * (batch.p[axis][0][lane] - from[axis]),
-                        g * (batch.p[axis][1][lane] - from[axis]),
-                    );
-                    low += least(a, b);
-                    high += most(a, b);
-                    size += most(a.abs(), b.abs());
-                    if SLOPE {
-                        let (c, d) = (g * batch.by[axis][0][lane], g * batch.by[axis][1][lane]);
-                        slope = [slope[0] + least(c, d), slope[1] + most(c, d)];
-                    }
+            let mut sum = zero;
+            let mut size = zero.low;
+            let mut slope = zero;
+            for axis in 0..3 {
+                let g = f64x8::from_slice(simd, &gradients[index][axis]);
+                let side = f64::from(u8::from(index >> axis & 1 == 1));
+                let product =
+                    Two { low: g * (p[axis].low - side), high: g * (p[axis].high - side) }.in_order();
+                sum = sum.plus(product);
+                size += product.greatest();
+                if SLOPE {
+                    slope = slope.plus(Two { low: g * by[axis].low, high: g * by[axis].high }.in_order());
                 }
-                let off = 8.0 * f64::EPSILON * size;
-                (values[index][0][lane], values[index][1][lane]) = (low - off, high + off);
-                (slopes[index][0][lane], slopes[index][1][lane]) = (slope[0], slope[1]);
             }
+            values[index] = sum.wider(size * (8.0 * f64::EPSILON));
+            slopes[index] = slope;
         }
         for axis in 0..3 {
+            let [weight, growth] = self.weights::<S, SLOPE>(simd, p[axis]);
+            let rise = if SLOPE { growth.times(by[axis]) } else { zero };
             for pair in 0..4 >> axis {
-                for lane in 0..LANES {
-                    let ends = |of: &[Ends; 8], index: usize| [of[index][0][lane], of[index][1][lane]];
-                    let weight = |part: usize| [weights[axis][part][0][lane], weights[axis][part][1][lane]];
-                    let (a, b) = (ends(&values, 2 * pair), ends(&values, 2 * pair + 1));
-                    let value = blend(weight(0), a, b);
-                    if SLOPE {
-                        let [c, d] = blend(weight(0), ends(&slopes, 2 * pair), ends(&slopes, 2 * pair + 1));
-                        let by = [batch.by[axis][0][lane], batch.by[axis][1][lane]];
-                        let rise = times(times(weight(1), by), [b[0] - a[1], b[1] - a[0]]);
-                        (slopes[pair][0][lane], slopes[pair][1][lane]) = (c + rise[0], d + rise[1]);
-                    }
-                    (values[pair][0][lane], values[pair][1][lane]) = (value[0], value[1]);
+                let (a, b) = (values[2 * pair], values[2 * pair + 1]);
+                values[pair] = blend(weight, a, b);
+                if SLOPE {
+                    let across = Two { low: b.low - a.high, high: b.high - a.low };
+                    slopes[pair] =
+                        blend(weight, slopes[2 * pair], slopes[2 * pair + 1]).plus(rise.times(across));
                 }
             }
         }
-        [values[0], slopes[0]]
+        [values[0].ends(), slopes[0].ends()]
+    }
+
+    /// The weights of the farther corners along an axis, and how they grow.
+    #[inline(always)]
+    fn weights<S: Simd, const SLOPE: bool>(&self, simd: S, p: Two<S>) -> [Two<S>; 2] {
+        const OFF: f64 = 16.0 * f64::EPSILON;
+        let is_improved = self.kind == NoiseKind::Improved;
+        let (zero, one) = (Two::splat(simd, 0.0), Two::splat(simd, 1.0 + OFF));
+        let (from, to) = (weight(is_improved, p.low) - OFF, weight(is_improved, p.high) + OFF);
+        let value = Two { low: most(from, zero.low), high: least(to, one.low) };
+        if !SLOPE {
+            return [value, zero];
+        }
+        let (a, b) = (growth(is_improved, p.low), growth(is_improved, p.high));
+        // It is greatest in the middle.
+        let middle = growth(is_improved, f64x8::splat(simd, 0.5));
+        let holds_middle = p.low.simd_le(0.5) & p.high.simd_ge(0.5);
+        let high = holds_middle.select(middle, most(a, b));
+        [value, Two { low: most(least(a, b) - OFF, zero.low), high: high + OFF }]
     }
 
     /// The gradients at the corners of a cell: x first, then y, then z.
@@ -254,33 +257,70 @@ impl Lattice {
     fn hash(&self, i: u64) -> u64 {
         u64::from(self.permutation[(i & 255) as usize])
     }
+}
 
-    /// The weight of the farther corner along an axis, and how it grows.
+/// Ranges in vectors.
+#[derive(Clone, Copy)]
+struct Two<S: Simd> {
+    low: f64x8<S>,
+    high: f64x8<S>,
+}
+
+impl<S: Simd> Two<S> {
     #[inline(always)]
-    fn weight(&self, [a, b]: [f64; 2], slope: bool) -> [[f64; 2]; 2] {
-        const OFF: f64 = 16.0 * f64::EPSILON;
-        let is_improved = self.kind == NoiseKind::Improved;
-        let (from, to) = (weight(is_improved, a), weight(is_improved, b));
-        let value = [most(from - OFF, 0.0), least(to + OFF, 1.0 + OFF)];
-        if !slope {
-            return [value, [0.0; 2]];
-        }
-        let (p, q) = (growth(is_improved, a), growth(is_improved, b));
-        let high = if a <= 0.5 && b >= 0.5 { growth(is_improved, 0.5) } else { most(p, q) };
-        [value, [most(least(p, q) - OFF, 0.0), high + OFF]]
+    fn splat(simd: S, v: f64) -> Self {
+        Self { low: f64x8::splat(simd, v), high: f64x8::splat(simd, v) }
+    }
+
+    #[inline(always)]
+    fn load(simd: S, ends: &Ends) -> Self {
+        Self { low: f64x8::from_slice(simd, &ends[0]), high: f64x8::from_slice(simd, &ends[1]) }
+    }
+
+    #[inline(always)]
+    fn ends(self) -> Ends {
+        [self.low.into(), self.high.into()]
+    }
+
+    #[inline(always)]
+    fn in_order(self) -> Self {
+        Self { low: least(self.low, self.high), high: most(self.low, self.high) }
+    }
+
+    #[inline(always)]
+    fn greatest(self) -> f64x8<S> {
+        most(self.low.abs(), self.high.abs())
+    }
+
+    #[inline(always)]
+    fn plus(self, other: Self) -> Self {
+        Self { low: self.low + other.low, high: self.high + other.high }
+    }
+
+    #[inline(always)]
+    fn wider(self, off: f64x8<S>) -> Self {
+        Self { low: self.low - off, high: self.high + off }
+    }
+
+    /// The product, of ranges with finite ends.
+    #[inline(always)]
+    fn times(self, other: Self) -> Self {
+        let (p, q) = (self.low * other.low, self.low * other.high);
+        let (r, s) = (self.high * other.low, self.high * other.high);
+        Self { low: least(least(p, q), least(r, s)), high: most(most(p, q), most(r, s)) }
     }
 }
 
 /// The weight of the farther corner of a unit cell.
 #[inline(always)]
-fn weight(is_improved: bool, t: f64) -> f64 {
-    if is_improved { t * t * t * (t * (t * 6.0 - 15.0) + 10.0) } else { t * t * (3.0 - 2.0 * t) }
+fn weight<S: Simd>(is_improved: bool, t: f64x8<S>) -> f64x8<S> {
+    if is_improved { t * t * t * (t * (t * 6.0 - 15.0) + 10.0) } else { t * t * (t * -2.0 + 3.0) }
 }
 
 /// How it grows.
 #[inline(always)]
-fn growth(is_improved: bool, t: f64) -> f64 {
-    if is_improved { 30.0 * t * t * (t - 1.0) * (t - 1.0) } else { 6.0 * t * (1.0 - t) }
+fn growth<S: Simd>(is_improved: bool, t: f64x8<S>) -> f64x8<S> {
+    if is_improved { t * t * 30.0 * (t - 1.0) * (t - 1.0) } else { t * 6.0 * (t * -1.0 + 1.0) }
 }
 
 /// One of the twelve directions to the edges of a cube.
@@ -300,27 +340,19 @@ fn edge(hash: u64) -> [f64; 3] {
 
 /// Between two ranges, by a weight from 0 to 1. What is between rises with both.
 #[inline(always)]
-fn blend(weight: [f64; 2], a: [f64; 2], b: [f64; 2]) -> [f64; 2] {
-    let (rise, rise_high) = (b[0] - a[0], b[1] - a[1]);
-    let low = least(a[0] + weight[0] * rise, a[0] + weight[1] * rise);
-    let high = most(a[1] + weight[0] * rise_high, a[1] + weight[1] * rise_high);
-    let off = 4.0 * f64::EPSILON * most(most(a[0].abs(), a[1].abs()), most(b[0].abs(), b[1].abs()));
-    [low - off, high + off]
-}
-
-/// The product of two ranges with finite ends.
-#[inline(always)]
-fn times([a, b]: [f64; 2], [c, d]: [f64; 2]) -> [f64; 2] {
-    let (p, q, r, s) = (a * c, a * d, b * c, b * d);
-    [least(least(p, q), least(r, s)), most(most(p, q), most(r, s))]
+fn blend<S: Simd>(weight: Two<S>, a: Two<S>, b: Two<S>) -> Two<S> {
+    let (rise, rise_high) = (b.low - a.low, b.high - a.high);
+    let low = least(a.low + weight.low * rise, a.low + weight.high * rise);
+    let high = most(a.high + weight.low * rise_high, a.high + weight.high * rise_high);
+    Two { low, high }.wider(most(a.greatest(), b.greatest()) * (4.0 * f64::EPSILON))
 }
 
 #[inline(always)]
-fn least(a: f64, b: f64) -> f64 {
-    if a < b { a } else { b }
+fn least<S: Simd>(a: f64x8<S>, b: f64x8<S>) -> f64x8<S> {
+    a.simd_lt(b).select(a, b)
 }
 
 #[inline(always)]
-fn most(a: f64, b: f64) -> f64 {
-    if a > b { a } else { b }
+fn most<S: Simd>(a: f64x8<S>, b: f64x8<S>) -> f64x8<S> {
+    a.simd_gt(b).select(a, b)
 }

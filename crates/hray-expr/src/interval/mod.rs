@@ -14,7 +14,7 @@ pub use range::{LANES, Range};
 
 use crate::{Block, Function, Image, Input, Loop, Node, NoiseTables, cells};
 use dual::Dual;
-use fearless_simd::{Level, dispatch};
+use fearless_simd::{Level, Simd, dispatch};
 use lattice::Lattice;
 use std::fmt;
 
@@ -103,8 +103,7 @@ impl RangePlan {
     #[must_use]
     pub fn values(&self, level: Level, p: &[Range; 3], scratch: &mut RangeScratch) -> Range {
         dispatch!(level, simd => {
-            let _ = simd;
-            self.run::<false>(p, &NO_DIRECTION, scratch);
+            self.run::<_, false>(simd, p, &NO_DIRECTION, scratch);
         });
         scratch.values.get(self.output).copied().unwrap_or(Range::ENTIRE)
     }
@@ -119,8 +118,7 @@ impl RangePlan {
         scratch: &mut RangeScratch,
     ) -> [Range; 2] {
         dispatch!(level, simd => {
-            let _ = simd;
-            self.run::<true>(p, direction, scratch);
+            self.run::<_, true>(simd, p, direction, scratch);
         });
         match (scratch.values.get(self.output), scratch.slopes.get(self.output)) {
             (Some(value), Some(slope)) => [*value, *slope],
@@ -129,13 +127,20 @@ impl RangePlan {
     }
 
     #[inline(always)]
-    fn run<const SLOPE: bool>(&self, p: &[Range; 3], direction: &[Range; 3], scratch: &mut RangeScratch) {
-        self.steps::<SLOPE>(&self.nodes, p, direction, &[], scratch);
+    fn run<S: Simd, const SLOPE: bool>(
+        &self,
+        simd: S,
+        p: &[Range; 3],
+        direction: &[Range; 3],
+        scratch: &mut RangeScratch,
+    ) {
+        self.steps::<S, SLOPE>(simd, &self.nodes, p, direction, &[], scratch);
     }
 
     #[inline(always)]
-    fn steps<const SLOPE: bool>(
+    fn steps<S: Simd, const SLOPE: bool>(
         &self,
+        simd: S,
         steps: &[Step],
         p: &[Range; 3],
         direction: &[Range; 3],
@@ -171,11 +176,14 @@ impl RangePlan {
                     Node::Result(block, i) => results[starts[block.index()] as usize + usize::from(*i)],
                     Node::Noise(..) | Node::Block(..) => Dual::ENTIRE,
                 },
-                Step::Noise { lattice, p } => self.lattices[*lattice].over::<SLOPE>([
-                    &pick::<SLOPE>(values, slopes, p[0]),
-                    &pick::<SLOPE>(values, slopes, p[1]),
-                    &pick::<SLOPE>(values, slopes, p[2]),
-                ]),
+                Step::Noise { lattice, p } => self.lattices[*lattice].over::<S, SLOPE>(
+                    simd,
+                    [
+                        &pick::<SLOPE>(values, slopes, p[0]),
+                        &pick::<SLOPE>(values, slopes, p[1]),
+                        &pick::<SLOPE>(values, slopes, p[2]),
+                    ],
+                ),
                 Step::Image { image, all, at } => {
                     starts.resize(values.len() + 1, results.len() as u32);
                     results.extend(image_range::<SLOPE>(
@@ -200,7 +208,7 @@ impl RangePlan {
                 Step::Loop { body, arguments } => {
                     starts.resize(values.len() + 1, results.len() as u32);
                     let initial = arguments.iter().map(|i| pick::<SLOPE>(values, slopes, *i)).collect();
-                    results.extend(self.repeat::<SLOPE>(body, p, direction, initial));
+                    results.extend(self.repeat::<S, SLOPE>(simd, body, p, direction, initial));
                     Dual::ENTIRE
                 }
             };
@@ -213,8 +221,9 @@ impl RangePlan {
 
     /// What the state may be after a loop: the hull of what it is wherever it may end.
     #[inline(never)]
-    fn repeat<const SLOPE: bool>(
+    fn repeat<S: Simd, const SLOPE: bool>(
         &self,
+        simd: S,
         body: &Body,
         p: &[Range; 3],
         direction: &[Range; 3],
@@ -230,7 +239,10 @@ impl RangePlan {
             }
         };
         for _ in 0..*max {
-            self.steps::<SLOPE>(&body.steps, p, direction, &arguments, &mut scratch);
+            simd.vectorize(
+                #[inline(always)]
+                || self.steps::<S, SLOPE>(simd, &body.steps, p, direction, &arguments, &mut scratch),
+            );
             let [surely, surely_not] = scratch.values[until.index()].certain();
             let may_end: [bool; LANES] = std::array::from_fn(|lane| running[lane] && !surely_not[lane]);
             if may_end.contains(&true) {

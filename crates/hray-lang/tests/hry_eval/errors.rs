@@ -30,6 +30,10 @@ oddities! {
     no_lights: "scene = { objects = [sphere {}] }";
     light_in_a_sphere: "scene = { lights = [point { position = (0, 5, 0) }], objects = [sphere {}, sphere { radius = 2 } |> translate (0, 5, 0)] }";
     camera_in_a_sphere: "scene = { lights = [point { position = (9, 9, 9) }], objects = [sphere { radius = 8 }] }";
+    surface_that_is_nowhere: "scene = { lights = [ambient {}], objects = [implicit { function = \\p -> length p + 1 }] }";
+    surface_outside_of_its_box: "scene = { lights = [ambient {}], objects = [implicit { function = \\p -> length p - 9, size = (2, 2, 2) }] }";
+    surface_that_jumps: "scene = { lights = [ambient {}], objects = [implicit { function = \\p -> p.y - tan p.x, size = (4, 4, 4) }] }";
+    surface_with_poles: "scene = { lights = [ambient {}], objects = [implicit { function = \\p -> 1 / p.x + p.y, size = (4, 4, 4) }] }";
     depth_of_nothing: "scene = { depth = -1, lights = [ambient {}], objects = [sphere {}] }";
     negative_shine: "s = 2 - 5\nscene = { lights = [ambient {}], objects = [sphere { material = classic { shine = s, ior = s, reflection = 0.1, transparency = 0.5 } }] }";
 }
@@ -43,6 +47,11 @@ mistakes! {
     cylinder_of_no_length: "scene = { objects = [cylinder { from = (0, 1, 0) }] }";
     thick_torus: "scene = { objects = [torus { radius = 1, tube = 2 }] }";
     quadric_of_nothing: "scene = { objects = [quadric { constant = 3 }] }";
+    surface_without_end: "scene = { objects = [implicit { function = \\p -> p.y - sin p.x }] }";
+    surface_that_may_have_no_end: "scene = { objects = [implicit { function = \\p -> length p - 1 / p.x }] }";
+    surface_inside_out: "scene = { objects = [implicit { function = \\p -> 1 - length p }] }";
+    surface_of_a_constant: "scene = { objects = [implicit { function = \\_ -> 3 }] }";
+    surface_that_is_flat_to_its_box: "scene = { objects = [implicit { function = \\p -> length p - 1, size = (2, 0, 2) }] }";
     disc_in_a_solid: "scene = { objects = [difference (sphere {}) (disc {})] }";
     size_not_whole: "w = 640 / 7\nscene = { size = (w, 480) }";
     angle_without_deg: "a = 60\nscene = { camera = perspective { from = (0, 0, 5), fov = a } }";

@@ -5,6 +5,7 @@
 mod common;
 mod corpus;
 mod errors;
+mod implicit;
 mod library;
 mod limits;
 mod meshes;

@@ -151,6 +151,11 @@ mistakes! {
         typed_function_of_a_place: "wave : Vec3 -> Color\nwave p = white * p.z\na = classic { color = wave }";
         without_its_size: "tiles : Number -> Hit -> Color\ntiles size h = white * h.p.x / size\na = classic { color = tiles }";
         vector_from_a_texture: "a = classic { color = \\h -> h.p }";
+        number_for_a_surface: "a = implicit { function = 0.5 }";
+        color_of_a_surface: "a = implicit { function = \\p -> red }";
+        surface_of_a_hit: "a = implicit { function = \\h -> length h.p - 1 }";
+        surface_without_a_function: "a = implicit { size = (1, 1, 1) }";
+        surface_of_three_numbers: "a = implicit { function = \\x y z -> x ^ 2 + y ^ 2 + z ^ 2 - 1 }";
         number_for_bumps: "a = classic { bump = 0.5 }";
         size_of_zero: "a = cube { size = 0 }";
         negative_size: "a = box { size = (1, -1, 2) }";

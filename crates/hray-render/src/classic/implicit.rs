@@ -70,6 +70,11 @@ impl PreparedImplicit {
         Self { field: Field { level, values, ranges }, implicit, share, cells, middle, reach, narrow }
     }
 
+    /// What it was made of.
+    pub(super) const fn implicit(&self) -> &Arc<Implicit> {
+        &self.implicit
+    }
+
     /// As one of how many it was made ready: a power of 2.
     pub(super) const fn share(&self) -> u32 {
         self.share

@@ -28,7 +28,7 @@ pub(super) struct Scratch {
     pub(super) values: PlanScratch,
     pub(super) ranges: RangeScratch,
     /// The next ones last.
-    stretches: Vec<[f64; 2]>,
+    stretches: Vec<Stretch>,
 }
 
 /// A line through space: the point at 0, and what is added to it at 1.
@@ -48,12 +48,26 @@ pub(super) struct Root {
     pub(super) touches: bool,
 }
 
-/// Ends of stretches with what the function is there.
-#[derive(Clone, Copy)]
+/// A stretch of a line.
+#[derive(Clone, Copy, Debug)]
 struct Stretch {
     from: f64,
     to: f64,
+    /// What the function is at the ends.
     values: [f64; 2],
+    state: State,
+}
+
+/// What is known of a stretch.
+#[derive(Clone, Copy, Debug)]
+enum State {
+    /// Not even the values.
+    New,
+    /// The values.
+    Valued,
+    /// It is to be cut; how fast the function may change.
+    Open([f64; 2]),
+    Found(Found),
 }
 
 impl Stretch {
@@ -102,71 +116,124 @@ impl Field {
         scratch: &mut Scratch,
         mut visit: impl FnMut(Root) -> bool,
     ) {
-        scratch.stretches.clear();
-        scratch.stretches.extend(stretches.iter().rev());
+        let Scratch { values, ranges, stretches: stack } = scratch;
+        let new =
+            |[from, to]: &[f64; 2]| Stretch { from: *from, to: *to, values: [0.0; 2], state: State::New };
+        stack.clear();
+        stack.extend(stretches.iter().rev().map(new));
         let mut looks = 0;
-        while let Some(first) = scratch.stretches.len().checked_sub(1) {
-            looks += 1;
-            let start = (first + 1).saturating_sub(LANES);
-            let count = first + 1 - start;
-            let mut eight = [[0.0; 2]; LANES];
-            for (lane, stretch) in eight.iter_mut().enumerate() {
-                // Those missing repeat the last.
-                *stretch = scratch.stretches[first - lane.min(count - 1)];
-            }
-            let [value, slope] = self.over(line, &eight, &mut scratch.ranges);
-            // Roots may be in these.
-            let mut open = 0u32;
-            for lane in 0..count {
-                let [low, high] = value.lane(lane);
-                open |= u32::from(low <= 0.0 && high >= 0.0) << lane;
-            }
-            let mut ends = [[0.0; 2]; LANES];
-            if open != 0 {
-                let at: [f64; 2 * LANES] = std::array::from_fn(|i| eight[i % LANES][i / LANES]);
-                let values = self.along(line, &at, &mut scratch.values);
-                ends = std::array::from_fn(|lane| [values[lane], values[lane + LANES]]);
-            }
-            let mut done = count;
-            for lane in 0..count {
-                if open >> lane & 1 == 0 {
-                    continue;
+        while let Some(top) = stack.last() {
+            match top.state {
+                State::New | State::Valued => {
+                    looks += 1;
+                    self.look(line, narrow, looks > MOST_LOOKS, stack, values, ranges);
                 }
-                let [from, to] = eight[lane];
-                let stretch = Stretch { from, to, values: ends[lane] };
-                let slope = slope.lane(lane);
-                match look(&stretch, value.lane(lane), slope, narrow, looks > MOST_LOOKS) {
-                    Found::Nothing => {}
-                    Found::Touch => {
-                        let [enters, _] = stretch.is_inside();
-                        if visit(Root { at: 0.5 * (from + to), enters, touches: true }) {
-                            return;
+                State::Open(slope) => {
+                    let stretch = *top;
+                    stack.pop();
+                    self.cut(line, &stretch, slope, stack, values);
+                }
+                State::Found(found) => {
+                    let stretch = *top;
+                    stack.pop();
+                    let is_enough = match found {
+                        Found::Nothing => false,
+                        Found::Touch => {
+                            let [enters, _] = stretch.is_inside();
+                            visit(Root { at: 0.5 * (stretch.from + stretch.to), enters, touches: true })
                         }
-                    }
-                    Found::Crossing => {
-                        let root = self.refine(line, &stretch, exact, &mut scratch.values);
-                        if visit(root) {
-                            return;
-                        }
-                    }
-                    Found::Unknown => {
-                        // What follows is looked at again, after its parts.
-                        done = lane;
-                        break;
+                        Found::Crossing => visit(self.refine(line, &stretch, exact, values)),
+                    };
+                    if is_enough {
+                        return;
                     }
                 }
             }
-            scratch.stretches.truncate(first + 1 - done);
-            if done < count
-                && let Some([from, to]) = scratch.stretches.pop()
-            {
-                let width = to - from;
-                let cut = |part: usize| match part {
-                    0 => from,
-                    PARTS => to,
-                    _ => from + width * (part as f64 / PARTS as f64),
-                };
-                scratch.stretches.extend((0..PARTS).rev().map(|part| [cut(part), cut(part + 1)]));
+        }
+    }
+
+    /// Looks at the next eight stretches that have not been looked at.
+    fn look(
+        &self,
+        line: &Line,
+        narrow: f64,
+        is_last: bool,
+        stack: &mut [Stretch],
+        scratch: &mut PlanScratch,
+        ranges: &mut RangeScratch,
+    ) {
+        let (mut places, mut count) = ([0; LANES], 0);
+        for (place, stretch) in stack.iter().enumerate().rev() {
+            if matches!(stretch.state, State::New | State::Valued) {
+                places[count] = place;
+                count += 1;
+                if count == LANES {
+                    break;
+                }
+            }
+        }
+        let mut ends = [[0.0; 2]; LANES];
+        for lane in 0..LANES {
+            // Those missing repeat the first.
+            let stretch = &stack[places[if lane < count { lane } else { 0 }]];
+            ends[lane] = [stretch.from, stretch.to];
+        }
+        let [value, slope] = self.over(line, &ends, ranges);
+        let is_open = |lane: usize| {
+            let [low, high] = value.lane(lane);
+            low <= 0.0 && high >= 0.0
+        };
+        let lacks_values = |lane: usize| is_open(lane) && matches!(stack[places[lane]].state, State::New);
+        if (0..count).any(lacks_values) {
+            let mut at = [0.0; 2 * LANES];
+            for lane in 0..LANES {
+                [at[lane], at[lane + LANES]] = ends[lane];
+            }
+            let at = self.along(line, &at, scratch);
+            for (lane, place) in places[..count].iter().enumerate() {
+                stack[*place].values = [at[lane], at[lane + LANES]];
+            }
+        }
+        for (lane, place) in places[..count].iter().enumerate() {
+            let stretch = &mut stack[*place];
+            stretch.state = if is_open(lane) {
+                state(stretch, value.lane(lane), slope.lane(lane), narrow, is_last)
+            } else {
+                State::Found(Found::Nothing)
+            };
+        }
+    }
+
+    /// Cuts a stretch into parts, and leaves those out in which slopes that are known for the whole do not let the function get
+    /// to 0.
+    fn cut(
+        &self,
+        line: &Line,
+        stretch: &Stretch,
+        slope: [f64; 2],
+        stack: &mut Vec<Stretch>,
+        scratch: &mut PlanScratch,
+    ) {
+        let Stretch { from, to, values: [first, last], .. } = *stretch;
+        let mut at = [to; PARTS];
+        for (i, at) in at.iter_mut().enumerate().take(PARTS - 1) {
+            *at = from + (to - from) * ((i + 1) as f64 / PARTS as f64);
+        }
+        let values = self.along(line, &at, scratch);
+        for part in (0..PARTS).rev() {
+            let part = Stretch {
+                from: if part == 0 { from } else { at[part - 1] },
+                to: at[part],
+                values: [
+                    if part == 0 { first } else { values[part - 1] },
+                    if part == PARTS - 1 { last } else { values[part] },
+                ],
+                state: State::Valued,
+            };
+            let [a, b] = part.is_inside();
+            let is_off = a == b && slope.iter().all(|v| v.is_finite()) && stays_off(&part, slope);
+            if part.from < part.to && !is_off {
+                stack.push(part);
             }
         }
     }
@@ -191,7 +258,7 @@ impl Field {
     /// Where the surface is crossed between the ends of a stretch, one of which is inside.
     fn refine(&self, line: &Line, stretch: &Stretch, exact: f64, scratch: &mut PlanScratch) -> Root {
         let [was_inside, enters] = stretch.is_inside();
-        let Stretch { mut from, mut to, values: [mut before, mut after] } = *stretch;
+        let Stretch { mut from, mut to, values: [mut before, mut after], .. } = *stretch;
         let mut evenly = false;
         while to - from > exact {
             let width = to - from;
@@ -225,34 +292,33 @@ impl Field {
 }
 
 /// What is in a stretch.
+#[derive(Clone, Copy, Debug)]
 enum Found {
     Nothing,
     Crossing,
     Touch,
-    Unknown,
 }
 
-/// What is in a stretch over whose range 0 is.
-fn look(stretch: &Stretch, value: [f64; 2], [least, most]: [f64; 2], narrow: f64, enough: bool) -> Found {
+/// What is known of a stretch over whose range 0 is.
+fn state(stretch: &Stretch, value: [f64; 2], [least, most]: [f64; 2], narrow: f64, is_last: bool) -> State {
     let [a, b] = stretch.is_inside();
     // Ascending or descending throughout, without jumps.
     let is_monotonic = least.is_finite() && most.is_finite() && (least > 0.0 || most < 0.0);
     if is_monotonic {
-        return if a == b { Found::Nothing } else { Found::Crossing };
+        return State::Found(if a == b { Found::Nothing } else { Found::Crossing });
     }
-    let width = stretch.to - stretch.from;
     if a == b && stays_off(stretch, [least, most]) {
-        return Found::Nothing;
+        return State::Found(Found::Nothing);
     }
-    if !(enough || width <= narrow) {
-        return Found::Unknown;
+    if !(is_last || stretch.to - stretch.from <= narrow) {
+        return State::Open([least, most]);
     }
     if a != b {
-        return Found::Crossing;
+        return State::Found(Found::Crossing);
     }
     // Where it may jump, and both ends are on one side, nothing says that it is 0 in between.
     let may_jump = least.is_infinite() || most.is_infinite() || value.iter().any(|v| v.is_infinite());
-    if may_jump || enough { Found::Nothing } else { Found::Touch }
+    State::Found(if may_jump || is_last { Found::Nothing } else { Found::Touch })
 }
 
 /// Whether slopes are so small that a function does not get from its values at both ends to 0.

@@ -235,6 +235,11 @@ impl<'p> Infer<'p> {
                 };
             }
             let (parameters, result) = self.types.store.parameters(ty);
+            if field.kind == FieldType::Space && parameters.len() == 3 {
+                return error.with_help(
+                    "it takes one point, not its coordinates one by one: `\\p -> p.x ^ 2 + p.y ^ 2 - 1`",
+                );
+            }
             let result_fits = self.types.store.head(result).is_some_and(|head| allowed.heads.has(head));
             if result_fits && parameters.len() > 1 {
                 return self.unfinished_body(error, expr, &parameters);
