@@ -78,7 +78,7 @@ impl Lattice {
             let (mut is_number, mut told_apart) = (true, true);
             for axis in 0..3 {
                 let [low, high] = at[axis];
-                is_number &= low == low && high == high;
+                is_number &= !low.is_nan() && !high.is_nan();
                 // Beyond 2^50 the cells of a box are no longer told apart.
                 told_apart &= low.abs() < 1e15 && high.abs() < 1e15;
                 first[axis] = low.floor();

@@ -110,7 +110,8 @@ impl PreparedImplicit {
         let Some(Walk { line, offset, enter, exit }) = self.walk(ray) else { return false };
         let from = enter.max(near - offset);
         let to = exit.min(far - offset);
-        if !(from < to) {
+        let is_met = from < to;
+        if !is_met {
             return false;
         }
         let is_in_box = enter + offset <= near;

@@ -242,13 +242,13 @@ impl Field {
     #[inline(always)]
     fn over(&self, line: &Line, stretches: &[[f64; 2]; LANES], scratch: &mut RangeScratch) -> [Range; 2] {
         let mut p = [Range::ZERO; 3];
-        for axis in 0..3 {
+        for (axis, range) in p.iter_mut().enumerate() {
             let (base, direction) = (line.base[axis], line.direction[axis]);
             for (lane, [from, to]) in stretches.iter().enumerate() {
                 // Rounding is monotonic: all points between lie between.
                 let (a, b) = (base + direction * from, base + direction * to);
-                p[axis].low[lane] = if a < b { a } else { b };
-                p[axis].high[lane] = if a < b { b } else { a };
+                range.low[lane] = if a < b { a } else { b };
+                range.high[lane] = if a < b { b } else { a };
             }
         }
         let directions = line.direction.to_array().map(|d| Range::from_ends(d, d));

@@ -94,7 +94,7 @@ pub(super) fn locate<S: Simd>(simd: S, scene: &Integrator, frame: &mut Frame, wa
             if special {
                 simd.vectorize(
                     #[inline(always)]
-                    || locate_special(simd, scene, frame, walk, group, i, &rays, distance),
+                    || locate_special(simd, scene, frame, walk, (group, i), &rays, distance),
                 );
                 continue;
             }
@@ -113,8 +113,7 @@ fn locate_special<S: Simd>(
     scene: &Integrator,
     frame: &mut Frame,
     walk: &mut Walk,
-    group: Group,
-    i: usize,
+    (group, i): (Group, usize),
     rays: &Rays<S>,
     distance: Lanes<S>,
 ) {
