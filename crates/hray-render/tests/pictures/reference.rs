@@ -17,43 +17,55 @@ pub(crate) fn nearest(primitives: &[Primitive], origin: DVec3, direction: DVec3)
 }
 
 fn first(primitive: &Primitive, origin: DVec3, direction: DVec3) -> Option<Hit> {
-    let mut all = crossings(primitive, DAffine3::IDENTITY, origin, direction);
+    surface(primitive, DAffine3::IDENTITY, origin, direction).first().copied()
+}
+
+/// Where a ray meets what is seen of a primitive, in ascending order.
+fn surface(primitive: &Primitive, outer: DAffine3, origin: DVec3, direction: DVec3) -> Vec<Hit> {
+    let to_world = to_world(primitive, outer);
+    if let Shape::Clip(clip) = &primitive.shape {
+        let mut all = surface(&clip.shape, to_world, origin, direction);
+        all.retain(|hit| is_inside(&clip.within, to_world, hit.point));
+        return all;
+    }
+    let mut all = crossings(primitive, outer, origin, direction);
     all.retain(|hit| hit.distance > 0.0);
     all.sort_by(|a, b| a.distance.total_cmp(&b.distance));
-    if !matches!(primitive.shape, Shape::Csg(_)) {
-        return all.first().copied();
+    if !matches!(primitive.shape, Shape::Csg(_) | Shape::Inverse(_)) {
+        return all;
     }
     // The surface of a solid is where points just before and just behind are not both inside, or both outside.
+    let mut seen = Vec::new();
     for (i, hit) in all.iter().enumerate() {
         let before = if i == 0 { 0.0 } else { all[i - 1].distance };
         let after = all.get(i + 1).map_or(hit.distance + 1.0, |next| next.distance);
-        let inside =
-            |a: f64, b: f64| is_inside(primitive, DAffine3::IDENTITY, origin + direction * ((a + b) / 2.0));
+        let inside = |a: f64, b: f64| is_inside(primitive, outer, origin + direction * ((a + b) / 2.0));
         let (was, is) = (inside(before, hit.distance), inside(hit.distance, after));
         if was != is {
             // Outward is where one comes from, or goes to.
             let facing = if hit.normal.dot(direction) < 0.0 { hit.normal } else { -hit.normal };
-            return Some(Hit { normal: if is { facing } else { -facing }, ..*hit });
+            seen.push(Hit { normal: if is { facing } else { -facing }, ..*hit });
         }
     }
-    None
+    seen
+}
+
+fn to_world(primitive: &Primitive, outer: DAffine3) -> DAffine3 {
+    primitive.transform.as_ref().map_or(outer, |transform| outer * **transform)
 }
 
 /// All places in which a ray meets the surface of a primitive's leaves, with the leaves' own normals.
 fn crossings(primitive: &Primitive, outer: DAffine3, origin: DVec3, direction: DVec3) -> Vec<Hit> {
-    let to_world = match &primitive.transform {
-        Some(transform) => outer * **transform,
-        None => outer,
-    };
+    let to_world = to_world(primitive, outer);
     let to_object = to_world.inverse();
     let (o, d) = (to_object.transform_point3(origin), to_object.transform_vector3(direction));
     let found: Vec<(f64, DVec3)> = match &primitive.shape {
-        Shape::Csg(csg) => {
-            let [a, b] = &csg.operands;
-            let mut all = crossings(a, to_world, origin, direction);
-            all.extend(crossings(b, to_world, origin, direction));
-            return all;
+        Shape::Csg(_) | Shape::Inverse(_) => {
+            let operands = primitive.shape.operands().into_iter().flatten();
+            return operands.flat_map(|operand| crossings(operand, to_world, origin, direction)).collect();
         }
+        // Not a part of solids.
+        Shape::Clip(_) => Vec::new(),
         Shape::Frustum(frustum) => frustum_crossings(frustum, o, d),
         // By small steps and halves.
         Shape::Torus(torus) => {
@@ -211,16 +223,14 @@ fn frustum_crossings(frustum: &Frustum, o: DVec3, d: DVec3) -> Vec<(f64, DVec3)>
 }
 
 fn is_inside(primitive: &Primitive, outer: DAffine3, point: DVec3) -> bool {
-    let to_world = match &primitive.transform {
-        Some(transform) => outer * **transform,
-        None => outer,
-    };
+    let to_world = to_world(primitive, outer);
     let p = to_world.inverse().transform_point3(point);
     match &primitive.shape {
         Shape::Sphere(sphere) => p.distance(sphere.center) < sphere.radius,
         Shape::Plane(plane) => plane.normal.dot(p) + plane.offset < 0.0,
         // Not a part of solids.
-        Shape::Disc(_) => false,
+        Shape::Disc(_) | Shape::Clip(_) => false,
+        Shape::Inverse(solid) => !is_inside(solid, to_world, point),
         Shape::Mesh(mesh) => solid_angle(mesh, p) > 2.0 * std::f64::consts::PI,
         Shape::Quadric(quadric) => quadric_value(quadric, p) < 0.0,
         Shape::Torus(torus) => from_torus(torus, p).0 < 0.0,

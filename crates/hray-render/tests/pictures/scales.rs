@@ -6,8 +6,8 @@ use crate::common::{
     sphere, torus, v,
 };
 use hray_core::{
-    Background, Camera, Csg, CsgOperation, DAffine3, DMat3, DVec3, Description, Disc, Light, Material, Mesh,
-    Primitive, Quadric, Rgb, Shape, Texture,
+    Background, Camera, Clip, Csg, CsgOperation, DAffine3, DMat3, DVec3, Description, Disc, Light, Material,
+    Mesh, Primitive, Quadric, Rgb, Shape, Texture,
 };
 use std::sync::Arc;
 
@@ -34,6 +34,11 @@ fn scaled(shape: &Shape, s: f64) -> Shape {
             let scaled = Mesh::new(positions, mesh.triangles().to_vec()).unwrap();
             Shape::Mesh(Arc::new(scaled.with_normals(mesh.normals().to_vec()).unwrap()))
         }
+        Shape::Inverse(solid) => Shape::Inverse(Arc::new(primitive(solid, s))),
+        Shape::Clip(clip) => Shape::Clip(Arc::new(Clip {
+            shape: primitive(&clip.shape, s),
+            within: primitive(&clip.within, s),
+        })),
         Shape::Csg(csg) => Shape::Csg(Arc::new(Csg {
             operation: csg.operation,
             operands: csg.operands.each_ref().map(|operand| primitive(operand, s)),
@@ -75,6 +80,17 @@ fn everything() -> Description {
             of(sphere(DVec3::ZERO, 0.62), &matte(0.8)),
         ],
     };
+    let kept = Csg {
+        operation: CsgOperation::Intersection,
+        operands: [
+            of(sphere(v(-0.2, 1.1, 0.6), 0.3), &half),
+            of(Shape::Inverse(Arc::new(of(sphere(v(-0.2, 1.2, 0.8), 0.25), &matte(0.8)))), &half),
+        ],
+    };
+    let shell = Clip {
+        shape: of(sphere(v(-0.7, 0.9, -0.2), 0.4), &half),
+        within: of(plane(v(0.5, 0.3, 1.0), -0.1), &half),
+    };
     let turned = DAffine3 {
         matrix3: DMat3::from_rotation_y(0.6) * DMat3::from_rotation_x(0.3),
         translation: v(-0.9, 0.1, 0.3),
@@ -104,6 +120,8 @@ fn everything() -> Description {
             &half,
         ),
         placed(of(Shape::Csg(Arc::new(bored)), &half), turned),
+        of(Shape::Csg(Arc::new(kept)), &half),
+        of(Shape::Clip(Arc::new(shell)), &half),
         placed(
             of(sphere(DVec3::ZERO, 0.5), &half),
             DAffine3 {
@@ -139,6 +157,12 @@ fn a_scene_looks_the_same_at_every_scale() {
     assert!(colors(&at_scale(&everything(), 1024.0)) == expected);
 }
 
+/// What of a shape is above a plane that the camera is above of.
+fn cap(shape: Primitive) -> Primitive {
+    let within = of(plane(v(0.1, 0.2, -1.0), 0.1), &matte(0.0));
+    of(Shape::Clip(Arc::new(Clip { shape, within })), &matte(0.0))
+}
+
 /// A convex mirror alone in the world sees only the background, and not itself.
 #[test]
 fn a_mirror_does_not_see_itself() {
@@ -154,6 +178,9 @@ fn a_mirror_does_not_see_itself() {
         placed(of(cuboid(v(-1.0, 0.0, -1.0), v(0.7, 0.9, 1.0)), &mirror()), turned),
         placed(of(sphere(v(5.0, 0.0, 0.0), 2.0), &mirror()), DAffine3::from_scale(v(0.4, 0.7, 0.2))),
         placed(of(plane(v(0.2, 0.9, 0.3), 0.4), &mirror()), turned),
+        cap(of(sphere(v(0.1, 0.2, 0.0), 1.2), &mirror())),
+        cap(of(ball(v(0.1, 0.2, 0.0), 1.2, 2, false), &mirror())),
+        placed(cap(of(plane(v(0.2, 0.9, 0.3), 0.4), &mirror())), turned),
     ];
     for (i, shape) in shapes.iter().enumerate() {
         for s in SCALES {
@@ -175,6 +202,8 @@ fn clear_glass_is_invisible() {
         of(cuboid(v(-1.0, -0.3, -1.0), v(0.7, 0.9, 1.0)), &glass(1.0)),
         placed(of(cuboid(v(-1.0, 0.0, -1.0), v(0.7, 0.9, 1.0)), &glass(1.0)), turned),
         placed(of(sphere(v(5.0, 0.0, 0.0), 2.0), &glass(1.0)), DAffine3::from_scale(v(0.4, 0.7, 0.2))),
+        // Light leaves the glass and enters it again.
+        of(Shape::Inverse(Arc::new(of(sphere(v(0.1, 0.2, 0.0), 1.2), &glass(1.0)))), &matte(0.0)),
     ];
     for (i, shape) in shapes.iter().enumerate() {
         for s in SCALES {
