@@ -115,7 +115,7 @@ pub struct Objects {
     pub boxes: usize,
     /// Curved shapes but spheres: cylinders and cones, discs, tori, quadrics.
     pub round: usize,
-    /// Solids made of others by constructive solid geometry.
+    /// Those made of others: solids by constructive solid geometry, and what is clipped.
     pub csg: usize,
     /// Triangle meshes; one that is placed many times counts each time.
     pub meshes: usize,
@@ -132,7 +132,7 @@ impl Objects {
                 Shape::Frustum(_) | Shape::Disc(_) | Shape::Torus(_) | Shape::Quadric(_) => {
                     &mut objects.round
                 }
-                Shape::Csg(_) => &mut objects.csg,
+                Shape::Csg(_) | Shape::Inverse(_) | Shape::Clip(_) => &mut objects.csg,
                 Shape::Mesh(_) => &mut objects.meshes,
             } += 1;
         }

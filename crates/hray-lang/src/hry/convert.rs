@@ -247,6 +247,8 @@ fn object(primitive: &Primitive, materials: &Materials) -> Option<Node> {
         | Shape::Torus(_)
         | Shape::Quadric(_)
         | Shape::Csg(_)
+        | Shape::Inverse(_)
+        | Shape::Clip(_)
         | Shape::Mesh(_) => return None,
     })
 }
