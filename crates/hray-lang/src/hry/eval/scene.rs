@@ -229,7 +229,7 @@ impl Machine<'_> {
         let lights = lights.iter().map(|light| light.light).collect();
         let scene = Scene { camera, background, primitives, lights, time };
         let description = Description { resolution, max_depth, samples, integrator, encoding, scene };
-        self.lint(&description, places);
+        self.lint(&description, &origins, places);
         Ok((description, origins))
     }
 
