@@ -152,9 +152,13 @@ fn in_solids() {
 
 #[test]
 fn where_something_is_clipped() {
-    told("sphere { material = red } |> clip (sphere { material = blue })");
+    told("sphere { material = red } |> clip (sphere { material = blue } |> rotate up 1)");
+    // The boundary belongs to the solid, where it is the same to the bit.
+    clean("sphere { material = red } |> clip (sphere { material = blue })");
     told("disc { material = red } |> clip (plane {})");
-    told("cube { material = red } |> clip (cube {} |> stretch (0.5, 1, 0.5))");
+    told(
+        "cube { material = red } |> clip (cylinder { from = (0, -0.5, 0), to = (0, 0.5, 0), radius = 0.4 })",
+    );
     clean("sphere { material = red } |> clip (cube {})");
     clean("disc { material = red } |> clip (cylinder { from = (0, -1, 0), to = (0, 1, 0), radius = 0.5 })");
     told("disc { material = red } |> clip (cube {}), plane { material = blue }");

@@ -30,6 +30,16 @@ oddities! {
     no_lights: "scene = { objects = [sphere {}] }";
     light_in_a_sphere: "scene = { lights = [point { position = (0, 5, 0) }], objects = [sphere {}, sphere { radius = 2 } |> translate (0, 5, 0)] }";
     camera_in_a_sphere: "scene = { lights = [point { position = (9, 9, 9) }], objects = [sphere { radius = 8 }] }";
+    coincident_objects: "scene = { lights = [ambient {}], objects = [plane { material = classic { color = gold } }, disc {}] }";
+    coincident_in_solids: "hole = cylinder { from = (0, -0.5, 0), to = (0, 0.5, 0), radius = 0.2 }
+scene = {
+  lights = [ambient {}],
+  objects = [
+    difference (cube {}) hole,
+    union (cube {}) (cube { material = classic { color = gold } } |> rotate up 1) |> translate (3, 0, 0),
+    disc {} |> clip (plane {}) |> translate (-3, 0, 0),
+  ],
+}";
     depth_of_nothing: "scene = { depth = -1, lights = [ambient {}], objects = [sphere {}] }";
     negative_shine: "s = 2 - 5\nscene = { lights = [ambient {}], objects = [sphere { material = classic { shine = s, ior = s, reflection = 0.1, transparency = 0.5 } }] }";
 }

@@ -370,10 +370,10 @@ impl<'a> Search<'a> {
                     |surface, within| if is_a { value(surface, within) } else { value(within, surface) };
                 let is_surface = tree.is_clipped_leaf() || value(false, true)[0] != value(true, true)[0];
                 let is_cut = value(true, false)[1] != value(true, true)[1];
-                return (is_surface && is_cut).then_some(Kind::Clip);
+                return (is_surface && is_cut && !self.is_exact(a, b)).then_some(Kind::Clip);
             }
         }
-        // Below and above, and where one is left or entered a little earlier than the other.
+        // Below and above the surface, and where one is left or entered a little earlier than the other.
         let [out_a, out_b] = [a, b].map(Self::leads_out);
         let ([below, within], [above, _]) = (value(out_a, out_b), value(!out_a, !out_b));
         let between = [value(!out_a, out_b)[0], value(out_a, !out_b)[0]];
