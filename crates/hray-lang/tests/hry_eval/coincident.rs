@@ -145,9 +145,9 @@ fn in_solids() {
     // Elsewhere it is covered.
     clean(&format!("union (difference (cube {{ material = red }}) ({hole})) (sphere {{ material = red }})"));
     // Between solids.
-    told(&format!(
-        "difference (cube {{ material = red }}) (sphere {{ radius = 0.2 }}), disc {{ center = (0, 0.5, 0), radius = 0.3, material = blue }}"
-    ));
+    told(
+        "difference (cube { material = red }) (sphere { radius = 0.2 }), disc { center = (0, 0.5, 0), radius = 0.3, material = blue }",
+    );
 }
 
 #[test]
