@@ -111,6 +111,20 @@ fn each_of_a_group_is_clipped_by_itself() {
     assert_eq!(b.shape.transform.as_ref().unwrap().translation, DVec3::Y);
 }
 
+/// A part of a solid, or of what is clipped, may be what gives light.
+#[test]
+fn parts_that_glow_are_lights() {
+    let warnings = |object: &str| {
+        let text = format!(
+            "lamp = sphere {{ material = classic {{ color = black, glow = white }} }}\nscene = {{ objects = [{object}] }}"
+        );
+        run_with(&text, &Files::default(), 0.0, &Limits::default()).1.diagnostics.len()
+    };
+    assert_eq!(warnings("lamp |> clip (plane {})"), 0);
+    assert_eq!(warnings("difference (cube {}) (lamp |> translate up)"), 0);
+    assert_eq!(warnings("difference (cube {}) (sphere {} |> translate up)"), 1);
+}
+
 #[test]
 fn what_is_clipped_has_no_inside() {
     let refused = |objects: &str, expected: &str| {

@@ -12,6 +12,9 @@ use hray_core::{Camera, Description, Field, Light, MIN_DEPTH, Material, Primitiv
 /// So many lights are compared with the objects at most.
 const MOST_LIGHTS: usize = 64;
 
+/// So many parts are looked at: solids that share parts can have more than could ever be counted.
+const MOST_PARTS: usize = 1 << 20;
+
 /// Where the parts of a scene stand: its fields, or the scene where they are left out.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Places {
@@ -65,7 +68,7 @@ impl Machine<'_> {
             let error = Diagnostic::warning("no-objects", message, places.objects, "nothing is in the scene");
             self.warn(error.with_help("for example: objects = [ sphere {} ]"));
         }
-        let glows = scene.primitives.iter().any(|primitive| primitive.material.glow.is_some());
+        let glows = materials(scene).any(|material| material.glow.is_some());
         if scene.lights.is_empty() && !scene.primitives.is_empty() && !glows && !has_own_light(scene) {
             let message = "there are no lights, so all surfaces are black";
             self.warn(
@@ -192,9 +195,12 @@ impl Machine<'_> {
 
 /// Whether anything in the scene is not black without lights: a mirror shows the background.
 fn has_own_light(scene: &Scene) -> bool {
-    scene.primitives.iter().any(|primitive| {
-        !primitive.material.reflection.is_zero() || !primitive.material.transmission.is_zero()
-    })
+    materials(scene).any(|material| !material.reflection.is_zero() || !material.transmission.is_zero())
+}
+
+/// The materials of objects, and of the parts of those that are made of others.
+fn materials(scene: &Scene) -> impl Iterator<Item = &Material> {
+    scene.primitives.iter().flat_map(Primitive::leaves).map(|leaf| &*leaf.material).take(MOST_PARTS)
 }
 
 /// The inside of a sphere, wherever it is placed.

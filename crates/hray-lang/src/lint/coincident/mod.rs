@@ -22,6 +22,8 @@ use tree::{Leaf, Tree};
 
 /// So many faces are looked at.
 const MOST_FACES: usize = 1 << 18;
+/// So many shapes are, those without faces and the parts of solids among them.
+const MOST_LEAVES: usize = 1 << 20;
 /// Each is compared with so many at most.
 const MOST_CANDIDATES: usize = 64;
 /// So many leaves and operations are visited.
@@ -125,7 +127,8 @@ impl<'a> Search<'a> {
         };
         let mut search = Self { leaves: Vec::new(), objects: Vec::new(), faces: Vec::new(), eye, work: 0 };
         for primitive in &scene.primitives {
-            if search.faces.len() >= MOST_FACES || !search.add(primitive) {
+            let is_full = search.faces.len() >= MOST_FACES || search.leaves.len() >= MOST_LEAVES;
+            if is_full || !search.add(primitive) {
                 break;
             }
         }
