@@ -1,16 +1,15 @@
 //! What a primitive is made of in the end.
 
-use crate::{Primitive, Shape};
+use crate::Primitive;
 
-/// The primitives of other shapes that a solid is made of, from the first operand to the last. See
-/// [`Primitive::leaves`].
+/// The primitives by themselves that one is made of, from the first operand to the last. See [`Primitive::leaves`].
 #[derive(Clone, Debug)]
 pub struct Leaves<'a> {
     left: Vec<&'a Primitive>,
 }
 
 impl Primitive {
-    /// The primitive itself, or, where its shape is a [`Shape::Csg`], what that is made of.
+    /// The primitive itself, or what it is made of, where its shape has [operands](crate::Shape::operands).
     ///
     /// Solids that use one solid twice have its leaves twice. There can be far more leaves than memory: whoever
     /// collects them has to set a limit.
@@ -26,9 +25,11 @@ impl<'a> Iterator for Leaves<'a> {
     fn next(&mut self) -> Option<&'a Primitive> {
         loop {
             let primitive = self.left.pop()?;
-            let Shape::Csg(csg) = &primitive.shape else { return Some(primitive) };
-            let [first, second] = &csg.operands;
-            self.left.extend([second, first]);
+            let [first, second] = primitive.shape.operands();
+            if first.is_none() {
+                return Some(primitive);
+            }
+            self.left.extend([second, first].into_iter().flatten());
         }
     }
 }

@@ -39,5 +39,5 @@ pub use mesh::{Mesh, MeshError};
 pub use model::{Model, ModelFormat, ModelMaterial, ModelPart};
 pub use round::{Disc, Frustum, Torus};
 pub use scene::{Background, Primitive, Scene};
-pub use shape::{Csg, CsgOperation, Cuboid, Plane, Quadric, Shape, Sphere};
+pub use shape::{Clip, Csg, CsgOperation, Cuboid, Plane, Quadric, Shape, Sphere};
 pub use texture::{NoiseTexture, Texture};

@@ -84,6 +84,16 @@ pub struct Csg {
     pub operands: [Primitive; 2],
 }
 
+/// A shape of which only the surface that lies inside a solid is left. Where the solid cuts no surface is made: one looks
+/// in.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Clip {
+    /// What is cut, which need not be a solid.
+    pub shape: Primitive,
+    /// The solid within which it is left, boundary included. Its own surface and material are not seen.
+    pub within: Primitive,
+}
+
 /// The geometry of a primitive: the thesis' `Object`.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Shape {
@@ -105,6 +115,10 @@ pub enum Shape {
     Implicit(Arc<Implicit>),
     /// A solid made of two.
     Csg(Arc<Csg>),
+    /// All that is not inside a solid: the same surface, turned inside out. It keeps its own material.
+    Inverse(Arc<Primitive>),
+    /// What of a shape lies inside a solid.
+    Clip(Arc<Clip>),
     /// Triangles, which other primitives may share.
     Mesh(Arc<Mesh>),
 }
@@ -120,10 +134,36 @@ impl Shape {
             | Self::Torus(_)
             | Self::Quadric(_)
             | Self::Implicit(_)
-            | Self::Csg(_) => true,
+            | Self::Csg(_)
+            | Self::Inverse(_) => true,
             Self::Frustum(frustum) => frustum.is_capped,
             Self::Mesh(mesh) => !mesh.triangles().is_empty() && mesh.open_edges() == 0,
-            Self::Disc(_) => false,
+            Self::Disc(_) | Self::Clip(_) => false,
         }
+    }
+
+    /// What a shape that is made of others is made of, in order; nothing for one that stands by itself.
+    #[must_use]
+    pub fn operands(&self) -> [Option<&Primitive>; 2] {
+        match self {
+            Self::Csg(csg) => csg.operands.each_ref().map(Some),
+            Self::Inverse(solid) => [Some(&**solid), None],
+            Self::Clip(clip) => [Some(&clip.shape), Some(&clip.within)],
+            Self::Sphere(_)
+            | Self::Plane(_)
+            | Self::Cuboid(_)
+            | Self::Frustum(_)
+            | Self::Disc(_)
+            | Self::Torus(_)
+            | Self::Quadric(_)
+            | Self::Implicit(_)
+            | Self::Mesh(_) => [None; 2],
+        }
+    }
+
+    /// Whether it is made of others.
+    #[must_use]
+    pub fn is_made_of_others(&self) -> bool {
+        self.operands()[0].is_some()
     }
 }

@@ -434,7 +434,7 @@ fn kind_of_object(description: &Description, id: ObjectId) -> &'static str {
         Some(Shape::Quadric(_)) => "quadric",
         Some(Shape::Implicit(_)) => "implicit surface",
         Some(Shape::Mesh(_)) => "mesh",
-        Some(Shape::Csg(_)) | None => "solid",
+        Some(Shape::Csg(_) | Shape::Inverse(_) | Shape::Clip(_)) | None => "solid",
     }
 }
 

@@ -74,7 +74,7 @@ pub use summary::{Bounds, CameraSummary, Materials, Meshes, Objects, Summary, Wo
 pub use work_folder::{OpenTexts, WorkAssets, WorkFolder};
 
 pub use hray_core::{
-    Background, Camera, Csg, CsgOperation, Cuboid, DAffine3, DMat3, DVec2, DVec3, Description,
+    Background, Camera, Clip, Csg, CsgOperation, Cuboid, DAffine3, DMat3, DVec2, DVec3, Description,
     DescriptionError, Encoding, Field, Function, Image, Integrator, Light, MAX_DEPTH, MAX_PIXELS, MIN_DEPTH,
     Material, Mesh, Model, ModelFormat, ModelMaterial, ModelPart, NoiseTables, NoiseTexture,
     OrthographicCamera, PerspectiveCamera, Plane, Primitive, Resolution, Rgb, Scene, Shape, Sphere, Texture,

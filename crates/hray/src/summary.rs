@@ -117,7 +117,7 @@ pub struct Objects {
     pub round: usize,
     /// Implicit surfaces.
     pub implicit: usize,
-    /// Solids made of others by constructive solid geometry.
+    /// Those made of others: solids by constructive solid geometry, and what is clipped.
     pub csg: usize,
     /// Triangle meshes; one that is placed many times counts each time.
     pub meshes: usize,
@@ -135,7 +135,7 @@ impl Objects {
                     &mut objects.round
                 }
                 Shape::Implicit(_) => &mut objects.implicit,
-                Shape::Csg(_) => &mut objects.csg,
+                Shape::Csg(_) | Shape::Inverse(_) | Shape::Clip(_) => &mut objects.csg,
                 Shape::Mesh(_) => &mut objects.meshes,
             } += 1;
         }

@@ -95,6 +95,8 @@ fn write_primitive(out: &mut impl fmt::Write, primitive: &Primitive) -> fmt::Res
         | Shape::Quadric(_)
         | Shape::Implicit(_)
         | Shape::Csg(_)
+        | Shape::Inverse(_)
+        | Shape::Clip(_)
         | Shape::Mesh(_) => return Err(CANNOT_SAY),
     }
     write!(out, " ) ( texture ( diff ")?;

@@ -248,6 +248,8 @@ fn object(primitive: &Primitive, materials: &Materials) -> Option<Node> {
         | Shape::Quadric(_)
         | Shape::Implicit(_)
         | Shape::Csg(_)
+        | Shape::Inverse(_)
+        | Shape::Clip(_)
         | Shape::Mesh(_) => return None,
     })
 }

@@ -7,6 +7,7 @@
 //! Time is linear in the number of objects: the lints that compare objects compare each with a bounded
 //! number of candidates ([`MOST_CANDIDATES`]), so of a huge scene they may miss something.
 
+pub(crate) mod coincident;
 mod hidden;
 mod levels;
 mod picture;
@@ -57,6 +58,11 @@ const VALUES: &[Lint] = &[
     lint(
         "unbounded-function",
         "The function of an implicit surface may be 0 and infinite in one place, however small: its surface may have flaws there.",
+    ),
+    lint(
+        "coincident-surfaces",
+        "Two surfaces lie in each other, so that rounding decides which of them is seen, or whether a skin is left where one \
+         solid is cut out of another: in pictures that looks like speckles.",
     ),
     lint("no-objects", "The scene has no objects, so only the background is seen."),
     lint(

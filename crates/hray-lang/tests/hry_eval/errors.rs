@@ -34,6 +34,16 @@ oddities! {
     surface_outside_of_its_box: "scene = { lights = [ambient {}], objects = [implicit { function = \\p -> length p - 9, size = (2, 2, 2) }] }";
     surface_that_jumps: "scene = { lights = [ambient {}], objects = [implicit { function = \\p -> p.y - tan p.x, size = (4, 4, 4) }] }";
     surface_with_poles: "scene = { lights = [ambient {}], objects = [implicit { function = \\p -> 1 / p.x + p.y, size = (4, 4, 4) }] }";
+    coincident_objects: "scene = { lights = [ambient {}], objects = [plane { material = classic { color = gold } }, disc {}] }";
+    coincident_in_solids: "hole = cylinder { from = (0, -0.5, 0), to = (0, 0.5, 0), radius = 0.2 }
+scene = {
+  lights = [ambient {}],
+  objects = [
+    difference (cube {}) hole,
+    union (cube {}) (cube { material = classic { color = gold } } |> rotate up 1) |> translate (3, 0, 0),
+    disc {} |> clip (plane {}) |> translate (-3, 0, 0),
+  ],
+}";
     depth_of_nothing: "scene = { depth = -1, lights = [ambient {}], objects = [sphere {}] }";
     negative_shine: "s = 2 - 5\nscene = { lights = [ambient {}], objects = [sphere { material = classic { shine = s, ior = s, reflection = 0.1, transparency = 0.5 } }] }";
 }

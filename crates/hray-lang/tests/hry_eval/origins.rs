@@ -1,7 +1,6 @@
 //! From objects and lights back to the text that made them.
 
 use crate::common::{Files, run_with, shown};
-use hray_core::Shape;
 use hray_lang::hry::Program;
 use hray_lang::hry::eval::{Evaluated, Evaluator, Limits, Origin};
 
@@ -63,6 +62,21 @@ scene = { objects = [sphere { radius = 9 }, difference two (hole |> translate (1
 }
 
 #[test]
+fn what_is_clipped_knows_its_parts() {
+    let (program, evaluated) = run("hole = sphere { radius = 0.5 }
+scene = { objects = [clip (inverse hole) (group [cube {}, union (sphere {}) hole])] }");
+    for object in 0..2 {
+        assert_eq!(text(&program, evaluated.origins.object(object)).split(' ').next(), Some("clip"));
+    }
+    let parts = |object| -> Vec<String> {
+        let parts = (0..9).map_while(|part| evaluated.origins.part(object, part));
+        parts.map(|origin| text(&program, Some(origin))).collect()
+    };
+    assert_eq!(parts(0), ["cube {}", "sphere { radius = 0.5 }"]);
+    assert_eq!(parts(1), ["(sphere {})", "sphere { radius = 0.5 }", "sphere { radius = 0.5 }"]);
+}
+
+#[test]
 fn what_is_kept_from_moment_to_moment_keeps_its_place() {
     let text =
         "still = sphere { radius = 4 }\nscene t = { objects = if t > 1 then [cube {}, still] else [still] }";
@@ -94,7 +108,7 @@ fn everything_in_the_examples_has_a_place() {
         for (i, primitive) in description.scene.primitives.iter().enumerate() {
             let origin = evaluated.origins.object(i).unwrap();
             assert!(!program.sources.text(origin.span).is_empty(), "{}: object {i}", path.display());
-            if matches!(primitive.shape, Shape::Csg(_)) {
+            if primitive.shape.is_made_of_others() {
                 solids += 1;
                 let parts = primitive.leaves().count();
                 assert!(

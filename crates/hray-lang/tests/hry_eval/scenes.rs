@@ -1,6 +1,6 @@
 //! From the value of `scene` to a description.
 
-use crate::common::{Files, run_with, scene, shown};
+use crate::common::{Files, errors, run_with, scene, shown};
 use hray_core::{Background, Camera, CsgOperation, DVec3, Encoding, Integrator, Light, Rgb, Shape, Texture};
 use hray_lang::hry::Program;
 use hray_lang::hry::eval::{Evaluator, Limits};
@@ -84,6 +84,60 @@ fn nothing_cuts_nothing() {
     assert_eq!(count("difference (sphere {}) (group [])"), 1);
     assert_eq!(count("intersection (sphere {}) (group [])"), 0);
     assert_eq!(count("union (group []) (sphere {})"), 1);
+    // What is not nothing is everything.
+    assert_eq!(count("intersection (sphere {}) (inverse (group []))"), 1);
+    assert_eq!(count("clip (group []) (sphere {})"), 0);
+    assert_eq!(count("clip (sphere {}) (group [])"), 0);
+}
+
+#[test]
+fn an_inverse_is_of_the_union_of_a_group() {
+    let description = scene("scene = { objects = [inverse (group [sphere {}, cube {}]) |> translate up] }");
+    let primitive = &description.scene.primitives[0];
+    let Shape::Inverse(solid) = &primitive.shape else { panic!() };
+    assert!(matches!(&solid.shape, Shape::Csg(csg) if csg.operation == CsgOperation::Union));
+    assert_eq!(primitive.transform.as_ref().unwrap().translation, DVec3::Y);
+}
+
+#[test]
+fn each_of_a_group_is_clipped_by_itself() {
+    let text =
+        "scene = { objects = [group [disc {}, sphere { radius = 2 } |> translate up] |> clip (cube {})] }";
+    let description = scene(text);
+    let [a, b] = &description.scene.primitives[..] else { panic!() };
+    let (Shape::Clip(a), Shape::Clip(b)) = (&a.shape, &b.shape) else { panic!() };
+    assert!(matches!(a.shape.shape, Shape::Disc(_)) && matches!(b.shape.shape, Shape::Sphere(_)));
+    assert!([a, b].iter().all(|clip| matches!(clip.within.shape, Shape::Cuboid(_))));
+    assert_eq!(b.shape.transform.as_ref().unwrap().translation, DVec3::Y);
+}
+
+/// A part of a solid, or of what is clipped, may be what gives light.
+#[test]
+fn parts_that_glow_are_lights() {
+    let warnings = |object: &str| {
+        let text = format!(
+            "lamp = sphere {{ material = classic {{ color = black, glow = white }} }}\nscene = {{ objects = [{object}] }}"
+        );
+        run_with(&text, &Files::default(), 0.0, &Limits::default()).1.diagnostics.len()
+    };
+    assert_eq!(warnings("lamp |> clip (plane {})"), 0);
+    assert_eq!(warnings("difference (cube {}) (lamp |> translate up)"), 0);
+    assert_eq!(warnings("difference (cube {}) (sphere {} |> translate up)"), 1);
+}
+
+#[test]
+fn what_is_clipped_has_no_inside() {
+    let refused = |objects: &str, expected: &str| {
+        let errors = errors(&format!("scene = {{ objects = [{objects}] }}"));
+        assert!(errors.contains("cannot be part of a solid") && errors.contains(expected), "{errors}");
+    };
+    refused("sphere {} |> clip (plane {}) |> inverse", "something that is clipped is in it");
+    refused(
+        "union (sphere {}) (group [sphere {} |> clip (cube {})])",
+        "something that is clipped is in one of the two",
+    );
+    refused("clip (disc {}) (sphere {})", "a disc or something open is in what it is clipped by");
+    refused("inverse (disc {})", "a disc or something open is in it");
 }
 
 #[test]

@@ -173,6 +173,8 @@ impl Choices {
             Kind::Shape => self.pick(&[
                 "sphere { radius = @n, material = @m }",
                 "union @s @s",
+                "inverse @s",
+                "clip @s @s",
                 "@s |> translate @v",
                 "paint @m @s",
                 "ball { radius = @n }",

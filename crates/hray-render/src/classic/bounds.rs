@@ -3,7 +3,7 @@
 use super::geometry::Geometry;
 use super::placement::Placement;
 use super::shapes::Prepared;
-use super::solid::Solid;
+use super::solid::{Made, Solid};
 use hray_bvh::{Bounds, Tree};
 use hray_core::{CsgOperation, DVec3};
 
@@ -61,31 +61,43 @@ fn union(a: Corners, b: Corners) -> Corners {
     [a[0].min(b[0]), a[1].max(b[1])]
 }
 
-/// The box around a solid. Where operands do not meet it is a point of one of them.
+fn common(a: Corners, b: Corners) -> Corners {
+    let min = a[0].max(b[0]);
+    [min, a[1].min(b[1]).max(min)]
+}
+
+/// The box around the surface of a solid. Where operands do not meet it is a point of one of them.
 pub(super) fn of_solid(geometry: &Geometry, solid: &Solid) -> Corners {
     let mut leaves = 0;
-    let mut corners: Vec<Corners> = Vec::with_capacity(solid.nodes.len());
+    // Of each node, what is around its inside and what is around its outside. Its surface is in both.
+    let mut sides: Vec<[Corners; 2]> = Vec::with_capacity(solid.nodes.len());
     for node in &solid.nodes {
         let this = match node.made {
-            None => {
+            Made::Leaf => {
                 leaves += 1;
-                of_leaf(geometry, solid.first + leaves - 1)
+                [of_leaf(geometry, solid.first + leaves - 1), EVERYWHERE]
             }
-            Some((operation, [a, b])) => {
-                let (a, b) = (corners[a as usize], corners[b as usize]);
+            Made::Inverse(solid) => {
+                let [inside, outside] = sides[solid as usize];
+                [outside, inside]
+            }
+            Made::Clip([shape, within]) => {
+                [common(sides[shape as usize][0], sides[within as usize][0]), EVERYWHERE]
+            }
+            Made::Csg(operation, [a, b]) => {
+                let ([a, not_a], [b, not_b]) = (sides[a as usize], sides[b as usize]);
                 match operation {
-                    CsgOperation::Union => union(a, b),
-                    CsgOperation::Difference => a,
-                    CsgOperation::Intersection => {
-                        let min = a[0].max(b[0]);
-                        [min, a[1].min(b[1]).max(min)]
-                    }
+                    CsgOperation::Union => [union(a, b), common(not_a, not_b)],
+                    CsgOperation::Intersection => [common(a, b), union(not_a, not_b)],
+                    CsgOperation::Difference => [common(a, not_b), union(not_a, b)],
                 }
             }
         };
-        corners.push(this);
+        sides.push(this);
     }
-    corners.last().copied().unwrap_or(EVERYWHERE)
+    let Some([inside, outside]) = sides.get(solid.surface as usize) else { return EVERYWHERE };
+    let surface = common(*inside, *outside);
+    solid.within.iter().fold(surface, |surface, &solid| common(surface, sides[solid as usize][0]))
 }
 
 /// A tree over boxes, their numbers in its order, and the origin of its coordinates; nothing where they are too great or

@@ -24,16 +24,7 @@ impl PreparedMesh {
         stack: &mut Stack,
         crossings: &mut Vec<Crossing>,
     ) -> bool {
-        crossings.clear();
-        let seen = Seen::new(ray);
-        let narrowed = self.narrowed(simd, ray, [0.0, f64::INFINITY]);
-        self.tree().candidates(simd, &narrowed, stack, |triangle| {
-            if let Some((at, turns)) = seen.around(self.corners(triangle))
-                && at > nearest
-            {
-                crossings.push(Crossing { at, turns, triangle });
-            }
-        });
+        self.meet(simd, ray, nearest, stack, crossings);
         // In whatever order they were found.
         crossings.sort_unstable_by(|a, b| a.at.total_cmp(&b.at).then(a.triangle.cmp(&b.triangle)));
         let mut around = -crossings.iter().map(|crossing| crossing.turns).sum::<i32>();
@@ -51,6 +42,28 @@ impl PreparedMesh {
         }
         crossings.truncate(kept);
         starts_inside
+    }
+
+    /// Where a ray goes through triangles of whatever mesh, beyond a distance and in whatever order.
+    #[inline(always)]
+    pub(super) fn meet<S: Simd>(
+        &self,
+        simd: S,
+        ray: &Ray,
+        nearest: f64,
+        stack: &mut Stack,
+        crossings: &mut Vec<Crossing>,
+    ) {
+        crossings.clear();
+        let seen = Seen::new(ray);
+        let narrowed = self.narrowed(simd, ray, [0.0, f64::INFINITY]);
+        self.tree().candidates(simd, &narrowed, stack, |triangle| {
+            if let Some((at, turns)) = seen.around(self.corners(triangle))
+                && at > nearest
+            {
+                crossings.push(Crossing { at, turns, triangle });
+            }
+        });
     }
 }
 

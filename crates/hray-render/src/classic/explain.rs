@@ -13,7 +13,7 @@ use crate::explain::{
     ExplainedHit, ExplainedRay, Followed, LightPart, MAX_EXPLAINED_RAYS, ObjectId, RayKind, Reach, Seen, same,
 };
 use fearless_simd::dispatch;
-use hray_core::{DVec3, Light, Primitive, Rgb, Shape};
+use hray_core::{DVec3, Light, Primitive, Rgb};
 use std::collections::BTreeMap;
 
 /// Which object the leaves of the geometry belong to.
@@ -21,7 +21,7 @@ use std::collections::BTreeMap;
 pub(crate) struct Owners {
     /// The first leaf of each primitive, from the last primitive to the first, as the geometry has them.
     first: Vec<u32>,
-    /// Whether each is a solid.
+    /// Whether each is made of others.
     solid: Vec<bool>,
 }
 
@@ -31,7 +31,7 @@ impl Owners {
         let mut leaves = 0;
         for primitive in primitives.iter().rev() {
             owners.first.push(leaves);
-            let is_solid = matches!(primitive.shape, Shape::Csg(_));
+            let is_solid = primitive.shape.is_made_of_others();
             owners.solid.push(is_solid);
             leaves += if is_solid { primitive.leaves().count() as u32 } else { 1 };
         }
@@ -422,7 +422,7 @@ fn clipped(color: Rgb) -> Rgb {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use hray_core::{Csg, CsgOperation, Material, Sphere, Texture};
+    use hray_core::{Csg, CsgOperation, Material, Shape, Sphere, Texture};
     use std::sync::Arc;
 
     #[test]

@@ -6,7 +6,7 @@ use super::mesh_trees::MeshTrees;
 use super::placement::Placement;
 use super::round::MOST_INTERVALS;
 use super::shapes::Prepared;
-use super::solid::{Node, Ray, Solid, intervals};
+use super::solid::{Made, Node, Ray, Solid, intervals};
 use hray_core::{Csg, CsgOperation, DAffine3, Integrator, Primitive, Shape};
 use std::collections::HashMap;
 use std::ops::Range;
@@ -125,48 +125,73 @@ impl Geometry {
         enum Task<'a> {
             Visit { part: &'a Primitive, outer: Option<Arc<DAffine3>>, turned: bool },
             Make(CsgOperation),
+            Invert,
+            Clip,
         }
         let first = self.shapes.len() as u32;
         let (mut nodes, mut leaves, mut made) = (Vec::<Node>::new(), Vec::new(), Vec::<u32>::new());
         let mut tasks = vec![Task::Visit { part: primitive, outer: None, turned: false }];
         while let Some(task) = tasks.pop() {
             let node = nodes.len() as u32;
-            match task {
+            let this = match task {
                 Task::Visit { part, outer, turned } => {
                     let transform = compose(outer, part.transform.as_ref());
-                    if let Shape::Csg(csg) = &part.shape {
-                        let Csg { operation, operands: [a, b] } = &**csg;
-                        let turned_b = turned != (*operation == CsgOperation::Difference);
-                        tasks.push(Task::Make(*operation));
-                        tasks.push(Task::Visit { part: b, outer: transform.clone(), turned: turned_b });
-                        tasks.push(Task::Visit { part: a, outer: transform, turned });
-                        continue;
-                    }
+                    let visit = |part, turned| Task::Visit { part, outer: transform.clone(), turned };
+                    let shape = match &part.shape {
+                        Shape::Csg(csg) => {
+                            let Csg { operation, operands: [a, b] } = &**csg;
+                            let turned_b = turned != (*operation == CsgOperation::Difference);
+                            tasks.extend([Task::Make(*operation), visit(b, turned_b), visit(a, turned)]);
+                            continue;
+                        }
+                        Shape::Inverse(solid) => {
+                            tasks.extend([Task::Invert, visit(solid, !turned)]);
+                            continue;
+                        }
+                        Shape::Clip(clip) => {
+                            tasks.extend([
+                                Task::Clip,
+                                visit(&clip.within, false),
+                                visit(&clip.shape, turned),
+                            ]);
+                            continue;
+                        }
+                        shape => match meshes.single(shape, materials.plans.tables())? {
+                            None => Prepared::new(shape, integrator),
+                            single => single,
+                        },
+                    };
                     if leaves.len() == MAX_SOLID_PARTS {
                         return Err(TooManyParts);
                     }
-                    let shape = match meshes.single(&part.shape, materials.plans.tables())? {
-                        None => Prepared::new(&part.shape, integrator),
-                        single => single,
-                    };
                     if let Some(shape) = shape {
                         let place = places.of(transform.as_ref(), &mut self.placements);
                         let place = place << 1 | u32::from(turned);
                         self.add_leaf(shape, Leaf { material: materials.of(&part.material), place });
                     }
                     leaves.push(node);
-                    nodes.push(Node { made: None, parent: node });
+                    Made::Leaf
                 }
-                Task::Make(operation) => {
+                Task::Invert => {
+                    let Some(solid) = made.pop() else { continue };
+                    nodes[solid as usize].parent = node;
+                    Made::Inverse(solid)
+                }
+                Task::Make(_) | Task::Clip => {
                     let [Some(b), Some(a)] = [made.pop(), made.pop()] else { continue };
-                    nodes.push(Node { made: Some((operation, [a, b])), parent: node });
                     nodes[a as usize].parent = node;
                     nodes[b as usize].parent = node;
+                    if let Task::Make(operation) = task {
+                        Made::Csg(operation, [a, b])
+                    } else {
+                        Made::Clip([a, b])
+                    }
                 }
-            }
+            };
+            nodes.push(Node { made: this, parent: node });
             made.push(node);
         }
-        Ok(Solid { first, leaves: leaves.into(), nodes: nodes.into(), boxes: None })
+        Ok(Solid::new(first, leaves, nodes))
     }
 
     /// Whether any leaf is a mesh.

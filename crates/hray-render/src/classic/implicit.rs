@@ -188,6 +188,24 @@ impl PreparedImplicit {
         })
     }
 
+    /// Wherever a ray meets the surface beyond a distance.
+    #[inline(always)]
+    pub(super) fn meet<S: Simd>(
+        &self,
+        simd: S,
+        ray: &Ray,
+        near: f64,
+        stack: &mut Stack,
+        scratch: &mut Scratch,
+        crossings: &mut Vec<Crossing>,
+    ) {
+        crossings.clear();
+        self.events(simd, ray, [near, f64::INFINITY], stack, scratch, |root| {
+            crossings.push(Crossing { at: root.at, turns: 0, triangle: 0 });
+            false
+        });
+    }
+
     /// Where exactly a ray meets the surface.
     pub(super) fn spot(&self, ray: &Ray, distance: f64, scratch: &mut Scratch) -> Spot {
         if let Some(spot) = self.spot_on_box(ray, distance) {

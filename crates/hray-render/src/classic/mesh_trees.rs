@@ -80,13 +80,14 @@ impl MeshTrees {
         let (mut seen, mut surfaces) = (BTreeSet::new(), BTreeSet::new());
         let mut left: Vec<&Primitive> = primitives.iter().collect();
         while let Some(primitive) = left.pop() {
-            match &primitive.shape {
-                Shape::Implicit(implicit) => {
-                    surfaces.insert(Arc::as_ptr(implicit).addr());
-                }
+            if let Shape::Implicit(implicit) = &primitive.shape {
+                surfaces.insert(Arc::as_ptr(implicit).addr());
+            }
+            for part in primitive.shape.operands().into_iter().flatten() {
                 // Solids share parts.
-                Shape::Csg(csg) if seen.insert(Arc::as_ptr(csg).addr()) => left.extend(&csg.operands),
-                _ => {}
+                if seen.insert(std::ptr::from_ref(part).addr()) {
+                    left.push(part);
+                }
             }
         }
         self.implicit.share =

@@ -58,6 +58,15 @@ impl Round {
         }
     }
 
+    /// All distances at which a ray meets the surface; some may be no numbers.
+    pub(super) fn meet(&self, ray: &Ray, each: impl FnMut(f64)) {
+        match self {
+            Self::Frustum(frustum) if !frustum.is_capped => frustum.open_hits(ray).into_iter().for_each(each),
+            Self::Disc(disc) => disc.hit(ray).into_iter().for_each(each),
+            _ => self.intervals(ray).as_flattened().iter().copied().for_each(each),
+        }
+    }
+
     /// The distances between which a ray is inside, in ascending order; no numbers for what there is not.
     pub(super) fn intervals(&self, ray: &Ray) -> [[f64; 2]; MOST_INTERVALS] {
         match self {

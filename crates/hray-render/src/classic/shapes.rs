@@ -110,7 +110,7 @@ impl<S: Simd> Surface<S> {
 }
 
 impl Prepared {
-    /// A shape; none for a solid made of others.
+    /// A shape; none for one made of others, and for a mesh.
     pub(super) fn new(shape: &Shape, integrator: Integrator) -> Option<Self> {
         let thesis = integrator == Integrator::Classic2005;
         Some(match shape {
@@ -143,7 +143,9 @@ impl Prepared {
                 // A little more, for the rounding of the test; infinite and odd numbers let everything through.
                 Self::Round { shape, nearest, middle, squared_reach: reach * reach * (1.0 + 1e-9) }
             }
-            Shape::Csg(_) | Shape::Mesh(_) | Shape::Implicit(_) => return None,
+            Shape::Csg(_) | Shape::Inverse(_) | Shape::Clip(_) | Shape::Mesh(_) | Shape::Implicit(_) => {
+                return None;
+            }
         })
     }
 

@@ -6,6 +6,10 @@
 //! for each leaf beforehand: a surface is turned inside out where an odd number of differences lie above its second
 //! operand.
 //!
+//! A shape that is clipped is walked in the same way: its surface, or that of the solid that it is, counts where the
+//! operations of what it is clipped by are inside. A clipped shape by itself needs no inside: its surface is met, and nothing
+//! changes.
+//!
 //! Leaves whose boxes a ray does not meet are left out: a tree over the boxes tells which (`solid_boxes.rs`).
 //!
 //! The tree of operations is a list in which operands come before what is made of them; nothing here recurses.
@@ -27,7 +31,7 @@ pub(super) struct Ray {
     pub(super) direction: DVec3,
 }
 
-/// A solid made of others.
+/// A solid made of others, or a shape that is clipped by solids.
 pub(super) struct Solid {
     /// Its leaves follow one upon the other in the scene's; this is the first.
     pub(super) first: u32,
@@ -35,6 +39,12 @@ pub(super) struct Solid {
     pub(super) leaves: Box<[u32]>,
     /// Operands before what is made of them; the last is the whole.
     pub(super) nodes: Box<[Node]>,
+    /// Whether each node is inside, outside of all leaves.
+    outside: Box<[bool]>,
+    /// The node whose surface is seen.
+    pub(super) surface: u32,
+    /// Nodes of which each has to be inside where the surface is seen.
+    pub(super) within: Box<[u32]>,
     /// The boxes around its leaves, where it has many.
     pub(super) boxes: Option<Boxes>,
 }
@@ -42,10 +52,19 @@ pub(super) struct Solid {
 /// A leaf or an operation.
 #[derive(Clone, Copy)]
 pub(super) struct Node {
-    /// The operation and its operands, for what is no leaf.
-    pub(super) made: Option<(CsgOperation, [u32; 2])>,
+    pub(super) made: Made,
     /// The node that this is an operand of; of the whole, itself.
     pub(super) parent: u32,
+}
+
+/// Of what a node is made.
+#[derive(Clone, Copy)]
+pub(super) enum Made {
+    Leaf,
+    Csg(CsgOperation, [u32; 2]),
+    Inverse(u32),
+    /// A surface, and what it is left within. It has no inside.
+    Clip([u32; 2]),
 }
 
 /// What one thread needs to walk along rays.
@@ -63,12 +82,21 @@ pub(super) struct Walk {
     pub(super) implicit: implicit::Scratch,
 }
 
-/// Where a ray enters or leaves a leaf.
+/// What happens to a ray at a leaf.
+#[derive(Clone, Copy, PartialEq)]
+enum Event {
+    Enters,
+    Leaves,
+    /// It meets the surface of a clipped shape.
+    Meets,
+}
+
+/// Where something happens to a ray.
 #[derive(Clone, Copy)]
 struct End {
     at: f64,
     leaf: u32,
-    enters: bool,
+    event: Event,
     /// Where the leaf is a mesh.
     triangle: u32,
 }
@@ -84,6 +112,33 @@ pub(super) struct SolidHit {
 }
 
 impl Solid {
+    pub(super) fn new(first: u32, leaves: Vec<u32>, nodes: Vec<Node>) -> Self {
+        let mut surface = nodes.len().saturating_sub(1);
+        let mut within = Vec::new();
+        while let Some(Made::Clip([shape, solid])) = nodes.get(surface).map(|node| node.made) {
+            within.push(solid);
+            surface = shape as usize;
+        }
+        let mut solid = Self {
+            first,
+            leaves: leaves.into(),
+            outside: vec![false; nodes.len()].into(),
+            nodes: nodes.into(),
+            surface: surface as u32,
+            within: within.into(),
+            boxes: None,
+        };
+        for node in 0..solid.nodes.len() {
+            solid.outside[node] = solid.value(node, &solid.outside);
+        }
+        solid
+    }
+
+    /// Whether a leaf is the shape that is clipped.
+    fn is_clipped(&self, leaf: u32) -> bool {
+        !self.within.is_empty() && self.leaves[leaf as usize] == self.surface
+    }
+
     /// The nearest distance beyond `geometry.nearest`, and not beyond `far`, at which a ray meets the surface, and the leaf
     /// that it belongs to there. Of several leaves in the same place, the one that is written last.
     #[inline(always)]
@@ -112,10 +167,32 @@ impl Solid {
             return None;
         }
         inside.clear();
-        inside.resize(self.nodes.len(), false);
+        inside.extend_from_slice(&self.outside);
         ends.clear();
+        let ahead = |at: f64| at > geometry.nearest && at < f64::INFINITY;
         for &leaf in met.iter() {
             let index = self.first as usize + leaf as usize;
+            if self.is_clipped(leaf) {
+                let (event, ray) = (Event::Meets, geometry.own_ray(index, ray));
+                if geometry.is_single(index) {
+                    match geometry.shape(index) {
+                        Prepared::Mesh(mesh) => mesh.meet(simd, &ray, geometry.nearest, stack, crossings),
+                        Prepared::Implicit(surface) => {
+                            surface.meet(simd, &ray, geometry.nearest, stack, implicit, crossings);
+                        }
+                        _ => {}
+                    }
+                    ends.extend(crossings.iter().map(|crossing| {
+                        let Crossing { at, triangle, .. } = *crossing;
+                        End { at, leaf, event, triangle }
+                    }));
+                } else {
+                    meet(geometry.shape(index), &ray, |at| {
+                        ends.extend(ahead(at).then_some(End { at, leaf, event, triangle: 0 }));
+                    });
+                }
+                continue;
+            }
             if geometry.is_single(index) {
                 let ray = geometry.own_ray(index, ray);
                 let starts_inside = match geometry.shape(index) {
@@ -130,7 +207,7 @@ impl Solid {
                 }
                 ends.extend(crossings.iter().map(|crossing| {
                     let Crossing { at, turns, triangle } = *crossing;
-                    End { at, leaf, enters: turns != 0, triangle }
+                    End { at, leaf, event: if turns == 0 { Event::Leaves } else { Event::Enters }, triangle }
                 }));
                 continue;
             }
@@ -140,30 +217,42 @@ impl Solid {
                     if enter <= geometry.nearest && geometry.nearest < exit {
                         self.change(leaf, true, inside);
                     }
-                    let ahead = |at: f64| at > geometry.nearest && at < f64::INFINITY;
-                    ends.extend(ahead(enter).then_some(End { at: enter, leaf, enters: true, triangle: 0 }));
-                    ends.extend(ahead(exit).then_some(End { at: exit, leaf, enters: false, triangle: 0 }));
+                    let end = |at, event| ahead(at).then_some(End { at, leaf, event, triangle: 0 });
+                    ends.extend(end(enter, Event::Enters));
+                    ends.extend(end(exit, Event::Leaves));
                 }
             }
         }
         if ends.is_empty() {
             return None;
         }
-        ends.sort_unstable_by(|a, b| a.at.total_cmp(&b.at).then(a.leaf.cmp(&b.leaf)));
-        let whole = self.nodes.len() - 1;
+        ends.sort_unstable_by(|a, b| {
+            a.at.total_cmp(&b.at).then(a.leaf.cmp(&b.leaf)).then(a.triangle.cmp(&b.triangle))
+        });
+        let surface = self.surface as usize;
         for together in ends.chunk_by(|a, b| a.at == b.at) {
-            let before = inside[whole];
+            let before = inside[surface];
+            // A solid that something is clipped by has its own surface.
+            let was_within = self.is_within(inside);
             for end in together {
-                self.change(end.leaf, end.enters, inside);
+                if end.event != Event::Meets {
+                    self.change(end.leaf, end.event == Event::Enters, inside);
+                }
             }
-            let after = inside[whole];
-            if after != before {
+            let after = inside[surface];
+            let met = if after != before {
                 // The surface of a leaf that is turned inside out is entered where the leaf is left.
                 let fits = |end: &&End| {
                     let index = self.first as usize + end.leaf as usize;
-                    (end.enters != geometry.is_turned(index)) == after
+                    ((end.event == Event::Enters) != geometry.is_turned(index)) == after
                 };
-                let end = together.iter().rev().find(fits).or(together.last())?;
+                together.iter().rev().find(fits).or(together.last())
+            } else {
+                together.iter().rev().find(|end| end.event == Event::Meets)
+            };
+            if let Some(end) = met
+                && (was_within || self.is_within(inside))
+            {
                 let leaf = self.first as usize + end.leaf as usize;
                 return Some(SolidHit { at: end.at, leaf, triangle: end.triangle });
             }
@@ -171,18 +260,29 @@ impl Solid {
         None
     }
 
+    /// Whether the surface is seen here, whatever it is clipped by.
+    fn is_within(&self, inside: &[bool]) -> bool {
+        self.within.iter().all(|&node| inside[node as usize])
+    }
+
     /// Whether a node is inside, from its operands.
     fn value(&self, node: usize, inside: &[bool]) -> bool {
-        let Some((operation, [first, second])) = self.nodes[node].made else { return inside[node] };
-        let (first, second) = (inside[first as usize], inside[second as usize]);
-        match operation {
-            CsgOperation::Union => first | second,
-            CsgOperation::Intersection => first & second,
-            CsgOperation::Difference => first & !second,
+        match self.nodes[node].made {
+            Made::Leaf => inside[node],
+            Made::Inverse(solid) => !inside[solid as usize],
+            Made::Clip(_) => false,
+            Made::Csg(operation, [first, second]) => {
+                let (first, second) = (inside[first as usize], inside[second as usize]);
+                match operation {
+                    CsgOperation::Union => first | second,
+                    CsgOperation::Intersection => first & second,
+                    CsgOperation::Difference => first & !second,
+                }
+            }
         }
     }
 
-    /// Enters or leaves a leaf, and what is made of it. Outside of all leaves is outside of everything.
+    /// Enters or leaves a leaf, and what is made of it.
     fn change(&self, leaf: u32, enters: bool, inside: &mut [bool]) {
         let mut node = self.leaves[leaf as usize] as usize;
         inside[node] = enters;
@@ -210,7 +310,21 @@ pub(super) fn intervals(shape: &Prepared, ray: &Ray) -> [[f64; 2]; MOST_INTERVAL
     }
 }
 
-/// The same for what is convex; in the operations and the order of the lanes.
+/// All distances at which a ray meets the surface of a shape, in its own space, in whatever order; some may be no numbers.
+fn meet(shape: &Prepared, ray: &Ray, each: impl FnMut(f64)) {
+    match shape {
+        Prepared::Round { shape, .. } => shape.meet(ray, each),
+        _ => {
+            let [enter, exit] = interval(shape, ray);
+            // Also where both are the same, in a flat box.
+            if enter <= exit {
+                [enter, exit].into_iter().for_each(each);
+            }
+        }
+    }
+}
+
+/// The distances between which a ray is inside what is convex; in the operations and the order of the lanes.
 fn interval(shape: &Prepared, ray: &Ray) -> [f64; 2] {
     let dot = |a: DVec3, b: DVec3| a.x * b.x + a.y * b.y + a.z * b.z;
     let nowhere = NOWHERE;

@@ -1,5 +1,6 @@
 //! Solids: with boxes and without, of shapes and of the meshes that stand for them.
 
+use super::bounds::of_solid;
 use super::geometry::Geometry;
 use super::material::Materials;
 use super::mesh_trees::MeshTrees;
@@ -9,8 +10,8 @@ use super::solid::{Ray, SolidHit, Walk};
 use fearless_simd::{Level, dispatch};
 use hray_bvh::Stack;
 use hray_core::{
-    Csg, CsgOperation, Cuboid, DAffine3, DMat3, DVec3, Frustum, Integrator, Material, Mesh, Plane, Primitive,
-    Quadric, Rgb, Shape, Sphere, Texture, Torus,
+    Clip, Csg, CsgOperation, Cuboid, DAffine3, DMat3, DVec3, Frustum, Integrator, Material, Mesh, Plane,
+    Primitive, Quadric, Rgb, Shape, Sphere, Texture, Torus,
 };
 use proptest::prelude::*;
 use std::sync::Arc;
@@ -22,6 +23,19 @@ fn part(shape: Shape, transform: Option<DAffine3>) -> Primitive {
 
 fn csg(operation: CsgOperation, a: Primitive, b: Primitive) -> Primitive {
     part(Shape::Csg(Arc::new(Csg { operation, operands: [a, b] })), None)
+}
+
+fn inverse(solid: Primitive) -> Primitive {
+    part(Shape::Inverse(Arc::new(solid)), None)
+}
+
+/// A solid within what is not it but moved.
+fn clip(solid: &Primitive) -> Primitive {
+    let moved = Primitive {
+        transform: Some(Arc::new(DAffine3::from_translation(DVec3::X))),
+        ..inverse(solid.clone())
+    };
+    part(Shape::Clip(Arc::new(Clip { shape: solid.clone(), within: moved })), None)
 }
 
 fn geometry(solid: Primitive) -> Geometry {
@@ -91,7 +105,8 @@ fn leaf() -> impl Strategy<Value = Primitive> {
             })),
         };
         let matrix3 = DMat3::from_rotation_x(turn.x) * DMat3::from_rotation_y(turn.y);
-        part(shape, (turn.z > 0.0).then_some(DAffine3 { matrix3, translation: DVec3::ZERO }))
+        let part = part(shape, (turn.z > 0.0).then_some(DAffine3 { matrix3, translation: DVec3::ZERO }));
+        if turn.x > 2.0 { inverse(part) } else { part }
     })
 }
 
@@ -116,9 +131,10 @@ proptest! {
     #[test]
     fn boxes_leave_out_nothing(
         first in leaf(), rest in prop::collection::vec((operation(), leaf()), 5..16),
-        rays in prop::collection::vec((vector(5.0), vector(2.0)), 200),
+        rays in prop::collection::vec((vector(5.0), vector(2.0)), 200), clipped in any::<bool>(),
     ) {
         let solid = rest.into_iter().fold(first, |solid, (operation, part)| csg(operation, solid, part));
+        let solid = if clipped { clip(&solid) } else { solid };
         let with = geometry(solid.clone());
         prop_assume!(with.solids[0].boxes.is_some());
         let mut without = geometry(solid);
@@ -128,6 +144,24 @@ proptest! {
             let [a, b] = [&with, &without].map(|geometry| hit(geometry, &ray));
             prop_assert_eq!(a.map(|hit| (hit.at.to_bits(), hit.leaf, hit.triangle)),
                 b.map(|hit| (hit.at.to_bits(), hit.leaf, hit.triangle)));
+        }
+    }
+
+    /// A ray from afar meets nothing outside of the box around a solid's surface, which may be small though the solid is not.
+    #[test]
+    fn a_surface_is_in_its_box(
+        first in leaf(), rest in prop::collection::vec((operation(), leaf()), 0..4),
+        rays in prop::collection::vec((vector(5.0), vector(2.0)), 100), clipped in any::<bool>(),
+    ) {
+        let solid = rest.into_iter().fold(inverse(first), |solid, (operation, part)| csg(operation, solid, part));
+        let geometry = geometry(if clipped { clip(&solid) } else { solid });
+        let [min, max] = of_solid(&geometry, &geometry.solids[0]);
+        for (origin, target) in rays {
+            let ray = Ray { origin: origin * 20.0, direction: target - origin * 20.0 };
+            if let Some(hit) = hit(&geometry, &ray) {
+                let at = ray.origin + ray.direction * hit.at;
+                prop_assert!(at.cmpge(min - 1e-5).all() && at.cmple(max + 1e-5).all(), "{at} {min} {max}");
+            }
         }
     }
 

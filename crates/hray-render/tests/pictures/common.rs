@@ -1,11 +1,11 @@
 //! Small scenes, and their colours.
 
 use hray_core::{
-    Background, Camera, Cuboid, DAffine3, DVec3, Description, Encoding, Field, Frustum, Function, Integrator,
-    Light, Material, Mesh, NoiseTables, PerspectiveCamera, Plane, Primitive, Resolution, Rgb, Scene, Shape,
-    Sphere, Texture, Torus,
+    Background, Camera, Cuboid, DAffine3, DVec3, Description, Encoding, Field, Frustum, Function, Implicit,
+    Integrator, Light, Material, Mesh, NoiseTables, PerspectiveCamera, Plane, Primitive, Resolution, Rgb,
+    Scene, Shape, Sphere, Texture, Torus,
 };
-use hray_expr::{Binary, Builder, Input, NodeId};
+use hray_expr::{Binary, Builder, Input, NodeId, Unary};
 use hray_render::{Control, Settings, render};
 use std::num::{NonZeroU32, NonZeroUsize};
 use std::sync::Arc;
@@ -138,6 +138,31 @@ pub(crate) fn frustum(base: DVec3, top: DVec3, radii: [f64; 2]) -> Shape {
 
 pub(crate) fn torus(center: DVec3, axis: DVec3, radius: f64, tube: f64) -> Shape {
     Shape::Torus(Arc::new(Torus { center, axis: axis.normalize(), radius, tube }))
+}
+
+/// An implicit ball with waves, in a box that may cut it.
+pub(crate) fn lump(center: DVec3, radius: f64, wave: f64, box_size: DVec3) -> Shape {
+    let mut b = Builder::new(1000);
+    let offsets =
+        [Input::Px, Input::Py, Input::Pz].into_iter().zip(center.to_array()).map(|(input, center)| {
+            let (p, center) = (b.input(input).unwrap(), b.constant(center).unwrap());
+            b.binary(Binary::Sub, p, center).unwrap()
+        });
+    let [x, y, z] = <[NodeId; 3]>::try_from(offsets.collect::<Vec<_>>()).unwrap();
+    let squares = [x, y, z].map(|v| b.binary(Binary::Mul, v, v).unwrap());
+    let sum = b.binary(Binary::Add, squares[0], squares[1]).unwrap();
+    let sum = b.binary(Binary::Add, sum, squares[2]).unwrap();
+    let length = b.unary(Unary::Sqrt, sum).unwrap();
+    let (radius, wave) = (b.constant(radius).unwrap(), b.constant(wave).unwrap());
+    let ball = b.binary(Binary::Sub, length, radius).unwrap();
+    let four = b.constant(4.0).unwrap();
+    let angle = b.binary(Binary::Div, y, radius).unwrap();
+    let angle = b.binary(Binary::Mul, angle, four).unwrap();
+    let sine = b.unary(Unary::Sin, angle).unwrap();
+    let height = b.binary(Binary::Mul, sine, wave).unwrap();
+    let value = b.binary(Binary::Add, ball, height).unwrap();
+    let (min, max) = (center - box_size * 0.5, center + box_size * 0.5);
+    Shape::Implicit(Arc::new(Implicit { function: Arc::new(b.finish(&[value])), min, max }))
 }
 
 pub(crate) fn cuboid(min: DVec3, max: DVec3) -> Shape {

@@ -1,6 +1,9 @@
 //! A tracer of obvious code: one ray, every crossing with every surface, and for solids whether points are inside.
 
-use hray_core::{CsgOperation, DAffine3, DVec3, Frustum, Mesh, Primitive, Quadric, Shape, Torus};
+use hray_core::{
+    CsgOperation, DAffine3, DVec3, Frustum, Implicit, Mesh, NoiseTables, Primitive, Quadric, Shape, Torus,
+};
+use hray_expr::Input;
 
 /// Where a ray meets something: distance, point, outward normal.
 #[derive(Clone, Copy, Debug)]
@@ -17,45 +20,85 @@ pub(crate) fn nearest(primitives: &[Primitive], origin: DVec3, direction: DVec3)
 }
 
 fn first(primitive: &Primitive, origin: DVec3, direction: DVec3) -> Option<Hit> {
-    let mut all = crossings(primitive, DAffine3::IDENTITY, origin, direction);
+    surface(primitive, DAffine3::IDENTITY, origin, direction).first().copied()
+}
+
+/// Where a ray meets what is seen of a primitive, in ascending order.
+fn surface(primitive: &Primitive, outer: DAffine3, origin: DVec3, direction: DVec3) -> Vec<Hit> {
+    let to_world = to_world(primitive, outer);
+    if let Shape::Clip(clip) = &primitive.shape {
+        let mut all = surface(&clip.shape, to_world, origin, direction);
+        all.retain(|hit| is_inside(&clip.within, to_world, hit.point));
+        return all;
+    }
+    let mut all = crossings(primitive, outer, origin, direction);
     all.retain(|hit| hit.distance > 0.0);
     all.sort_by(|a, b| a.distance.total_cmp(&b.distance));
-    if !matches!(primitive.shape, Shape::Csg(_)) {
-        return all.first().copied();
+    if !matches!(primitive.shape, Shape::Csg(_) | Shape::Inverse(_)) {
+        return all;
     }
     // The surface of a solid is where points just before and just behind are not both inside, or both outside.
+    let mut seen = Vec::new();
     for (i, hit) in all.iter().enumerate() {
         let before = if i == 0 { 0.0 } else { all[i - 1].distance };
         let after = all.get(i + 1).map_or(hit.distance + 1.0, |next| next.distance);
-        let inside =
-            |a: f64, b: f64| is_inside(primitive, DAffine3::IDENTITY, origin + direction * ((a + b) / 2.0));
+        let inside = |a: f64, b: f64| is_inside(primitive, outer, origin + direction * ((a + b) / 2.0));
         let (was, is) = (inside(before, hit.distance), inside(hit.distance, after));
         if was != is {
             // Outward is where one comes from, or goes to.
             let facing = if hit.normal.dot(direction) < 0.0 { hit.normal } else { -hit.normal };
-            return Some(Hit { normal: if is { facing } else { -facing }, ..*hit });
+            seen.push(Hit { normal: if is { facing } else { -facing }, ..*hit });
         }
     }
-    None
+    seen
+}
+
+fn to_world(primitive: &Primitive, outer: DAffine3) -> DAffine3 {
+    primitive.transform.as_ref().map_or(outer, |transform| outer * **transform)
 }
 
 /// All places in which a ray meets the surface of a primitive's leaves, with the leaves' own normals.
 fn crossings(primitive: &Primitive, outer: DAffine3, origin: DVec3, direction: DVec3) -> Vec<Hit> {
-    let to_world = match &primitive.transform {
-        Some(transform) => outer * **transform,
-        None => outer,
-    };
+    let to_world = to_world(primitive, outer);
     let to_object = to_world.inverse();
     let (o, d) = (to_object.transform_point3(origin), to_object.transform_vector3(direction));
     let found: Vec<(f64, DVec3)> = match &primitive.shape {
-        Shape::Csg(csg) => {
-            let [a, b] = &csg.operands;
-            let mut all = crossings(a, to_world, origin, direction);
-            all.extend(crossings(b, to_world, origin, direction));
-            return all;
+        Shape::Csg(_) | Shape::Inverse(_) => {
+            let operands = primitive.shape.operands().into_iter().flatten();
+            return operands.flat_map(|operand| crossings(operand, to_world, origin, direction)).collect();
         }
+        // Not a part of solids.
+        Shape::Clip(_) => Vec::new(),
         Shape::Frustum(frustum) => frustum_crossings(frustum, o, d),
-        // By small steps and halves.
+        // By small steps and halves in the box.
+        Shape::Implicit(surface) => {
+            let at = |t: f64| in_implicit(surface, o + d * t);
+            let size = (surface.max - surface.min).length() / d.length();
+            let start = ((surface.min + surface.max) * 0.5 - o).dot(d) / d.length_squared() - 0.51 * size;
+            let step = size / 200.0;
+            // The functions here change no faster than this.
+            let is_near = |t: f64| implicit_value(surface, o + d * t).abs() < 3.0 * step * d.length();
+            let mut found = Vec::new();
+            for i in 0..204 {
+                let from = start + f64::from(i) * step;
+                let parts = if is_near(from) || is_near(from + step) { 200 } else { 1 };
+                for part in 0..parts {
+                    let place = |part: u32| from + step * (f64::from(part) / f64::from(parts));
+                    let (mut low, mut high) = (place(part), place(part + 1));
+                    let before = at(low);
+                    if before == at(high) {
+                        continue;
+                    }
+                    for _ in 0..60 {
+                        let middle = 0.5 * (low + high);
+                        if at(middle) == before { low = middle } else { high = middle }
+                    }
+                    found.push((high, implicit_normal(surface, o + d * high)));
+                }
+            }
+            found
+        }
+        // The same.
         Shape::Torus(torus) => {
             let at = |t: f64| from_torus(torus, o + d * t).0 < 0.0;
             let mut found = Vec::new();
@@ -147,6 +190,32 @@ fn crossings(primitive: &Primitive, outer: DAffine3, origin: DVec3, direction: D
     found.into_iter().map(hit).collect()
 }
 
+fn implicit_value(surface: &Implicit, p: DVec3) -> f64 {
+    let mut inputs = [0.0; Input::COUNT];
+    inputs[..3].copy_from_slice(&p.to_array());
+    surface.function.evaluate(&NoiseTables::default(), &inputs)[0]
+}
+
+fn in_implicit(surface: &Implicit, p: DVec3) -> bool {
+    p.cmpge(surface.min).all() && p.cmple(surface.max).all() && implicit_value(surface, p) < 0.0
+}
+
+/// Of the face of the box that the point is on, or by differences.
+fn implicit_normal(surface: &Implicit, p: DVec3) -> DVec3 {
+    for axis in DVec3::AXES {
+        if (p - surface.max).dot(axis).abs() < 1e-12 {
+            return axis;
+        }
+        if (p - surface.min).dot(axis).abs() < 1e-12 {
+            return -axis;
+        }
+    }
+    let difference = |by: DVec3| implicit_value(surface, p + by) - implicit_value(surface, p - by);
+    // What is left of the third derivative is taken away.
+    let along = |axis: DVec3| 8.0 * difference(axis * 1e-3) - difference(axis * 2e-3);
+    DVec3::from(DVec3::AXES.map(along))
+}
+
 fn quadric_value(quadric: &Quadric, p: DVec3) -> f64 {
     let mixed = DVec3::new(p.x * p.y, p.x * p.z, p.y * p.z);
     quadric.square.dot(p * p) + quadric.product.dot(mixed) + quadric.linear.dot(p) + quadric.constant
@@ -211,18 +280,17 @@ fn frustum_crossings(frustum: &Frustum, o: DVec3, d: DVec3) -> Vec<(f64, DVec3)>
 }
 
 fn is_inside(primitive: &Primitive, outer: DAffine3, point: DVec3) -> bool {
-    let to_world = match &primitive.transform {
-        Some(transform) => outer * **transform,
-        None => outer,
-    };
+    let to_world = to_world(primitive, outer);
     let p = to_world.inverse().transform_point3(point);
     match &primitive.shape {
         Shape::Sphere(sphere) => p.distance(sphere.center) < sphere.radius,
         Shape::Plane(plane) => plane.normal.dot(p) + plane.offset < 0.0,
         // Not a part of solids.
-        Shape::Disc(_) => false,
+        Shape::Disc(_) | Shape::Clip(_) => false,
+        Shape::Inverse(solid) => !is_inside(solid, to_world, point),
         Shape::Mesh(mesh) => solid_angle(mesh, p) > 2.0 * std::f64::consts::PI,
         Shape::Quadric(quadric) => quadric_value(quadric, p) < 0.0,
+        Shape::Implicit(surface) => in_implicit(surface, p),
         Shape::Torus(torus) => from_torus(torus, p).0 < 0.0,
         Shape::Frustum(frustum) => {
             let (along, distance, _) = in_frustum(frustum, p);

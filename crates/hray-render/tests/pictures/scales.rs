@@ -2,13 +2,14 @@
 //! the same.
 
 use crate::common::{
-    NOTHING, ball, colors, cuboid, description, frustum, glass, gray, matte, mirror, of, placed, plane,
+    NOTHING, ball, colors, cuboid, description, frustum, glass, gray, lump, matte, mirror, of, placed, plane,
     sphere, torus, v,
 };
 use hray_core::{
-    Background, Camera, Csg, CsgOperation, DAffine3, DMat3, DVec3, Description, Disc, Light, Material, Mesh,
-    Primitive, Quadric, Rgb, Shape, Texture,
+    Background, Camera, Clip, Csg, CsgOperation, DAffine3, DMat3, DVec3, Description, Disc, Function,
+    Implicit, Light, Material, Mesh, Primitive, Quadric, Rgb, Shape, Texture,
 };
+use hray_expr::{Binary, Builder, Node, NodeId};
 use std::sync::Arc;
 
 const SCALES: [f64; 4] = [1e-6, 1.0, 1e6, 1e12];
@@ -24,6 +25,10 @@ fn scaled(shape: &Shape, s: f64) -> Shape {
             let (linear, constant) = (a.linear * s, a.constant * s * s);
             Shape::Quadric(Arc::new(Quadric { linear, constant, ..**a }))
         }
+        Shape::Implicit(a) => {
+            let function = Arc::new(scaled_function(&a.function, s));
+            Shape::Implicit(Arc::new(Implicit { function, min: a.min * s, max: a.max * s }))
+        }
         Shape::Disc(a) => {
             let disc =
                 Disc { center: a.center * s, normal: a.normal, radius: a.radius * s, hole: a.hole * s };
@@ -34,11 +39,38 @@ fn scaled(shape: &Shape, s: f64) -> Shape {
             let scaled = Mesh::new(positions, mesh.triangles().to_vec()).unwrap();
             Shape::Mesh(Arc::new(scaled.with_normals(mesh.normals().to_vec()).unwrap()))
         }
+        Shape::Inverse(solid) => Shape::Inverse(Arc::new(primitive(solid, s))),
+        Shape::Clip(clip) => Shape::Clip(Arc::new(Clip {
+            shape: primitive(&clip.shape, s),
+            within: primitive(&clip.within, s),
+        })),
         Shape::Csg(csg) => Shape::Csg(Arc::new(Csg {
             operation: csg.operation,
             operands: csg.operands.each_ref().map(|operand| primitive(operand, s)),
         })),
     }
+}
+
+/// The same values at points `s` times as far away.
+fn scaled_function(function: &Function, s: f64) -> Function {
+    let mut b = Builder::new(1000);
+    let factor = b.constant(1.0 / s).unwrap();
+    let mut made: Vec<NodeId> = Vec::new();
+    for node in function.nodes() {
+        let of = |id: &NodeId| made[id.0 as usize];
+        let node = match node {
+            Node::Constant(v) => b.constant(*v).unwrap(),
+            Node::Input(input) => {
+                let input = b.input(*input).unwrap();
+                b.binary(Binary::Mul, input, factor).unwrap()
+            }
+            Node::Unary(f, x) => b.unary(*f, of(x)).unwrap(),
+            Node::Binary(f, x, y) => b.binary(*f, of(x), of(y)).unwrap(),
+            other => panic!("{other:?}"),
+        };
+        made.push(node);
+    }
+    b.finish(&[made[function.outputs()[0].0 as usize]])
 }
 
 fn primitive(p: &Primitive, s: f64) -> Primitive {
@@ -75,6 +107,17 @@ fn everything() -> Description {
             of(sphere(DVec3::ZERO, 0.62), &matte(0.8)),
         ],
     };
+    let kept = Csg {
+        operation: CsgOperation::Intersection,
+        operands: [
+            of(sphere(v(-0.2, 1.1, 0.6), 0.3), &half),
+            of(Shape::Inverse(Arc::new(of(sphere(v(-0.2, 1.2, 0.8), 0.25), &matte(0.8)))), &half),
+        ],
+    };
+    let shell = Clip {
+        shape: of(sphere(v(-0.7, 0.9, -0.2), 0.4), &half),
+        within: of(plane(v(0.5, 0.3, 1.0), -0.1), &half),
+    };
     let turned = DAffine3 {
         matrix3: DMat3::from_rotation_y(0.6) * DMat3::from_rotation_x(0.3),
         translation: v(-0.9, 0.1, 0.3),
@@ -103,7 +146,10 @@ fn everything() -> Description {
             })),
             &half,
         ),
+        of(lump(v(-0.3, 0.75, 0.9), 0.25, 0.05, v(1.0, 0.4, 1.0)), &half),
         placed(of(Shape::Csg(Arc::new(bored)), &half), turned),
+        of(Shape::Csg(Arc::new(kept)), &half),
+        of(Shape::Clip(Arc::new(shell)), &half),
         placed(
             of(sphere(DVec3::ZERO, 0.5), &half),
             DAffine3 {
@@ -139,12 +185,19 @@ fn a_scene_looks_the_same_at_every_scale() {
     assert!(colors(&at_scale(&everything(), 1024.0)) == expected);
 }
 
+/// What of a shape is above a plane that the camera is above of.
+fn cap(shape: Primitive) -> Primitive {
+    let within = of(plane(v(0.1, 0.2, -1.0), 0.1), &matte(0.0));
+    of(Shape::Clip(Arc::new(Clip { shape, within })), &matte(0.0))
+}
+
 /// A convex mirror alone in the world sees only the background, and not itself.
 #[test]
 fn a_mirror_does_not_see_itself() {
     let turned = DAffine3::from_axis_angle(v(1.0, 2.0, 3.0).normalize(), 0.7);
     let shapes = [
         of(sphere(v(0.1, 0.2, 0.0), 1.2), &mirror()),
+        of(lump(v(0.1, 0.2, 0.0), 1.2, 0.0, v(2.0, 3.0, 3.0)), &mirror()),
         of(sphere(v(-0.1, 0.0, -100.0), 99.0), &mirror()),
         of(cuboid(v(-1.0, 0.0, -1.0), v(0.7, 0.9, 1.0)), &mirror()),
         of(ball(v(0.1, 0.2, 0.0), 1.2, 2, false), &mirror()),
@@ -154,6 +207,9 @@ fn a_mirror_does_not_see_itself() {
         placed(of(cuboid(v(-1.0, 0.0, -1.0), v(0.7, 0.9, 1.0)), &mirror()), turned),
         placed(of(sphere(v(5.0, 0.0, 0.0), 2.0), &mirror()), DAffine3::from_scale(v(0.4, 0.7, 0.2))),
         placed(of(plane(v(0.2, 0.9, 0.3), 0.4), &mirror()), turned),
+        cap(of(sphere(v(0.1, 0.2, 0.0), 1.2), &mirror())),
+        cap(of(ball(v(0.1, 0.2, 0.0), 1.2, 2, false), &mirror())),
+        placed(cap(of(plane(v(0.2, 0.9, 0.3), 0.4), &mirror())), turned),
     ];
     for (i, shape) in shapes.iter().enumerate() {
         for s in SCALES {
@@ -171,10 +227,13 @@ fn clear_glass_is_invisible() {
     let turned = DAffine3::from_axis_angle(v(1.0, 2.0, 3.0).normalize(), 0.7);
     let shapes = [
         of(sphere(v(0.1, 0.2, 0.0), 1.2), &glass(1.0)),
+        of(lump(v(0.1, 0.2, 0.0), 1.2, 0.0, v(2.0, 3.0, 3.0)), &glass(1.0)),
         of(ball(v(0.1, 0.2, 0.0), 1.2, 3, false), &glass(1.0)),
         of(cuboid(v(-1.0, -0.3, -1.0), v(0.7, 0.9, 1.0)), &glass(1.0)),
         placed(of(cuboid(v(-1.0, 0.0, -1.0), v(0.7, 0.9, 1.0)), &glass(1.0)), turned),
         placed(of(sphere(v(5.0, 0.0, 0.0), 2.0), &glass(1.0)), DAffine3::from_scale(v(0.4, 0.7, 0.2))),
+        // Light leaves the glass and enters it again.
+        of(Shape::Inverse(Arc::new(of(sphere(v(0.1, 0.2, 0.0), 1.2), &glass(1.0)))), &matte(0.0)),
     ];
     for (i, shape) in shapes.iter().enumerate() {
         for s in SCALES {
@@ -194,6 +253,7 @@ fn no_shadow_falls_on_what_is_seen_from_the_light() {
     let turned = DAffine3::from_axis_angle(v(1.0, 2.0, 3.0).normalize(), 0.7);
     let shapes = [
         of(sphere(v(0.1, 0.2, 0.0), 1.2), &matte(1.0)),
+        of(lump(v(0.1, 0.2, 0.0), 1.2, 0.2, v(2.0, 3.0, 3.0)), &matte(1.0)),
         of(ball(v(0.1, 0.2, 0.0), 1.2, 3, false), &matte(1.0)),
         of(ball(v(0.1, 0.2, 0.0), 1.2, 3, true), &matte(1.0)),
         placed(of(ball(v(5.0, 0.0, 0.0), 2.0, 3, true), &matte(1.0)), DAffine3::from_scale(v(0.4, 0.7, 0.2))),

@@ -1,8 +1,8 @@
 //! Where shapes are hit.
 
 use crate::common::{
-    NORMAL, Numbers, OBJECT, WORLD, ball, camera, colors, cuboid, description, directions, frustum, middle,
-    of, placed, plane, showing, shown, sphere, torus, v,
+    NORMAL, Numbers, OBJECT, WORLD, ball, camera, colors, cuboid, description, directions, frustum, lump,
+    middle, of, placed, plane, showing, shown, sphere, torus, v,
 };
 use crate::reference::nearest;
 use hray_core::{DAffine3, DMat3, DVec3, Integrator, Primitive, Quadric, Rgb, Shape};
@@ -21,7 +21,7 @@ fn random_placement(n: &mut Numbers) -> DAffine3 {
 
 /// `meshes` may be among them.
 pub(crate) fn random_leaf(n: &mut Numbers, show: [Input; 3], meshes: bool) -> Primitive {
-    let shape = match n.below(if meshes { 10 } else { 9 }) {
+    let shape = match n.below(if meshes { 11 } else { 10 }) {
         0 | 1 => sphere(n.point(0.8), n.between(0.3, 1.2)),
         2 | 3 => {
             let min = n.point(0.8) - 0.4;
@@ -43,6 +43,10 @@ pub(crate) fn random_leaf(n: &mut Numbers, show: [Input; 3], meshes: bool) -> Pr
             constant: n.between(-0.8, 0.4),
         })),
         8 => torus(n.point(0.8), n.point(1.0), n.between(0.6, 1.2), n.between(0.1, 0.5)),
+        9 => {
+            let size = v(n.between(1.0, 3.0), n.between(1.0, 3.0), n.between(1.0, 3.0));
+            lump(n.point(0.8), n.between(0.4, 0.9), n.between(0.0, 0.15), size)
+        }
         _ => ball(n.point(0.8), n.between(0.4, 1.2), 1, false),
     };
     let primitive = of(shape, &showing(show));

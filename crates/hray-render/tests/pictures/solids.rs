@@ -1,12 +1,13 @@
 //! Constructive solid geometry.
 
 use crate::common::{
-    NORMAL, Numbers, WORLD, colors, cuboid, description, matte, middle, of, placed, plane, showing, shown,
-    sphere, v,
+    NORMAL, Numbers, WORLD, colors, cuboid, description, frustum, matte, middle, of, placed, plane, showing,
+    shown, sphere, v,
 };
 use crate::shapes::{compare, random_leaf};
 use hray_core::{
-    Csg, CsgOperation, DAffine3, DVec3, Integrator, Light, NoiseTables, Primitive, Rgb, Shape, Texture,
+    Clip, Csg, CsgOperation, DAffine3, DVec3, Disc, Frustum, Integrator, Light, Mesh, NoiseTables, Primitive,
+    Rgb, Shape, Texture,
 };
 use hray_expr::Input;
 use hray_render::{Control, RenderError, Settings, render};
@@ -16,9 +17,20 @@ fn csg(operation: CsgOperation, a: Primitive, b: Primitive) -> Primitive {
     of(Shape::Csg(Arc::new(Csg { operation, operands: [a, b] })), &matte(0.0))
 }
 
+fn inverse(solid: Primitive) -> Primitive {
+    of(Shape::Inverse(Arc::new(solid)), &matte(0.0))
+}
+
+fn clip(within: Primitive, shape: Primitive) -> Primitive {
+    of(Shape::Clip(Arc::new(Clip { shape, within })), &matte(0.0))
+}
+
 fn random_solid(n: &mut Numbers, depth: usize, show: [Input; 3]) -> Primitive {
     if depth == 0 || n.below(4) == 0 {
         return random_leaf(n, show, true);
+    }
+    if n.below(5) == 0 {
+        return inverse(random_solid(n, depth - 1, show));
     }
     let operation = [CsgOperation::Union, CsgOperation::Intersection, CsgOperation::Difference][n.below(3)];
     let a = random_solid(n, depth - 1, show);
@@ -34,6 +46,110 @@ fn random_solids_are_the_references() {
         (0..1 + n.below(3)).map(|_| random_solid(n, 4, show)).collect()
     };
     compare(scene, &[Integrator::Classic, Integrator::Classic2005], 1e-9);
+}
+
+/// Shapes and solids, open ones among them, clipped once or twice.
+#[test]
+fn random_clipped_shapes_are_the_references() {
+    let clipped = |n: &mut Numbers, show| {
+        let mut shape = match n.below(4) {
+            0 => random_solid(n, 2, show),
+            1 => of(random_open(n), &showing(show)),
+            _ => random_leaf(n, show, true),
+        };
+        for _ in 0..1 + n.below(2) {
+            shape = clip(random_solid(n, 1, show), shape);
+            if n.below(3) == 0 {
+                shape = placed(shape, DAffine3::from_rotation_x(n.between(0.0, 6.0)));
+            }
+        }
+        shape
+    };
+    let scene = |seed, show| {
+        let n = &mut Numbers(seed * 79);
+        (0..4 + n.below(3)).map(|_| clipped(n, show)).collect()
+    };
+    compare(scene, &[Integrator::Classic, Integrator::Classic2005], 1e-9);
+}
+
+fn random_open(n: &mut Numbers) -> Shape {
+    match n.below(3) {
+        0 => Shape::Disc(Arc::new(Disc {
+            center: n.point(0.8),
+            normal: n.point(1.0).normalize(),
+            radius: n.between(0.6, 1.6),
+            hole: n.between(0.0, 0.4),
+        })),
+        1 => {
+            let (base, radii) = (n.point(0.8), [n.between(0.3, 1.0), n.between(0.3, 1.0)]);
+            Shape::Frustum(Arc::new(Frustum { base, top: base + n.point(1.2), radii, is_capped: false }))
+        }
+        _ => {
+            let single = |p: DVec3| p.to_array().map(|x| x as f32);
+            let corners = (0..9).map(|_| single(n.point(1.5))).collect();
+            Shape::Mesh(Arc::new(Mesh::new(corners, vec![[0, 1, 2], [3, 4, 5], [6, 7, 8]]).unwrap()))
+        }
+    }
+}
+
+/// What is not inside a ball has the ball's surface, and its outside is where the ball's inside was.
+#[test]
+fn an_inverse_by_itself() {
+    let show = |inputs| {
+        let ball = of(sphere(DVec3::ZERO, 1.0), &showing(inputs));
+        let one = inverse(ball.clone());
+        [one.clone(), inverse(one)].map(|solid| shown(middle(vec![solid], Vec::new())).unwrap())
+    };
+    assert_eq!(show(WORLD).map(|p| p.distance(DVec3::Z) < 1e-14), [true; 2]);
+    let [once, twice] = show(NORMAL);
+    assert!(once.distance(DVec3::NEG_Z) < 1e-14 && twice.distance(DVec3::Z) < 1e-14);
+}
+
+/// De Morgan: the same solids in other words, to the bit.
+#[test]
+fn what_is_cut_away_is_what_is_not_inside() {
+    for seed in 0..40 {
+        let picture = |make: &dyn Fn(Primitive, Primitive) -> Primitive| {
+            let n = &mut Numbers(seed * 83);
+            let [a, b] = [random_solid(n, 2, WORLD), random_solid(n, 2, WORLD)];
+            colors(&description(16, vec![make(a, b)], Vec::new()))
+        };
+        let difference = picture(&|a, b| csg(CsgOperation::Difference, a, b));
+        let intersection = picture(&|a, b| csg(CsgOperation::Intersection, a, inverse(b)));
+        let union = picture(&|a, b| inverse(csg(CsgOperation::Union, inverse(a), b)));
+        assert!(difference == intersection && intersection == union, "{seed}");
+    }
+}
+
+/// One looks into a ball that is cut open, at its far side from within, and through a hole that is cut into both sides.
+#[test]
+fn nothing_closes_a_cut() {
+    let show = |inputs| {
+        let ball = of(sphere(DVec3::ZERO, 1.0), &showing(inputs));
+        let cut = clip(of(plane(DVec3::Z, -0.5), &matte(0.0)), ball);
+        shown(middle(vec![cut], Vec::new())).unwrap()
+    };
+    assert!(show(WORLD).distance(DVec3::NEG_Z) < 1e-14);
+    assert!(show(NORMAL).distance(DVec3::NEG_Z) < 1e-14, "not turned: it leads out of the ball");
+    let hole = of(frustum(v(0.0, 0.0, -2.0), v(0.0, 0.0, 2.0), [0.3; 2]), &matte(0.0));
+    let ball = of(sphere(DVec3::ZERO, 1.0), &showing(WORLD));
+    assert_eq!(shown(middle(vec![clip(inverse(hole), ball)], Vec::new())), None);
+}
+
+/// With the tree over many objects: what is clipped has a box, whatever it was.
+#[test]
+fn many_clipped_shapes_are_the_references() {
+    let scene = |seed, show| {
+        let n = &mut Numbers(seed * 89);
+        let clipped = |n: &mut Numbers| {
+            let shape = random_leaf(n, show, true);
+            let within = of(sphere(n.point(1.0), n.between(0.5, 1.2)), &matte(0.0));
+            let shape = clip(within, shape);
+            if n.below(2) == 0 { shape } else { placed(shape, DAffine3::from_translation(n.point(0.5))) }
+        };
+        (0..20).map(|_| clipped(n)).collect()
+    };
+    compare(scene, &[Integrator::Classic], 1e-9);
 }
 
 /// Two spheres of radius 2 around (0, 0, ±1): the lens between them ends at z = 1 and -1.

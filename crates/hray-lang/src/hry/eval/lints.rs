@@ -1,12 +1,19 @@
 //! Warnings about a scene as a whole that is legal but surely meant otherwise.
 
 use super::machine::Machine;
+use super::origins::Origins;
 use crate::diagnostic::{Diagnostic, Span};
+use crate::hry::sources::STANDARD_BASE;
+use crate::lint::MOST_PER_LINT;
+use crate::lint::coincident::{self, Coincidence, Kind, Surface};
 use glam::{DAffine3, DVec3};
 use hray_core::{Camera, Description, Field, Light, MIN_DEPTH, Material, Primitive, Scene, Shape, Sphere};
 
 /// So many lights are compared with the objects at most.
 const MOST_LIGHTS: usize = 64;
+
+/// So many parts are looked at: solids that share parts can have more than could ever be counted.
+const MOST_PARTS: usize = 1 << 20;
 
 /// Where the parts of a scene stand: its fields, or the scene where they are left out.
 #[derive(Clone, Copy, Debug)]
@@ -46,7 +53,7 @@ impl Machine<'_> {
     }
 
     /// Warns of what is odd about a scene.
-    pub(super) fn lint(&mut self, description: &Description, places: Places) {
+    pub(super) fn lint(&mut self, description: &Description, origins: &Origins, places: Places) {
         let scene = &description.scene;
         if description.max_depth == MIN_DEPTH {
             let message = "the picture will be black";
@@ -61,7 +68,7 @@ impl Machine<'_> {
             let error = Diagnostic::warning("no-objects", message, places.objects, "nothing is in the scene");
             self.warn(error.with_help("for example: objects = [ sphere {} ]"));
         }
-        let glows = scene.primitives.iter().any(|primitive| primitive.material.glow.is_some());
+        let glows = materials(scene).any(|material| material.glow.is_some());
         if scene.lights.is_empty() && !scene.primitives.is_empty() && !glows && !has_own_light(scene) {
             let message = "there are no lights, so all surfaces are black";
             self.warn(
@@ -71,6 +78,62 @@ impl Machine<'_> {
             );
         }
         self.lint_what_is_shut_in(scene, places);
+        self.lint_coincident_surfaces(scene, origins);
+    }
+
+    /// Warns of surfaces that lie in each other, once for the places that made them.
+    fn lint_coincident_surfaces(&mut self, scene: &Scene, origins: &Origins) {
+        let place = |surface: Surface| {
+            let origin = match surface.part {
+                Some(part) => origins.part(surface.object, part),
+                None => origins.object(surface.object),
+            };
+            // What the library makes is made by who called it.
+            origin.and_then(|origin| {
+                let is_own = origin.span.start < STANDARD_BASE;
+                if is_own { Some(origin.span) } else { origin.calls.first().copied() }
+            })
+        };
+        let mut found: Vec<([Span; 2], Kind)> = Vec::new();
+        coincident::check(scene, |Coincidence { surfaces, kind }| {
+            if let [Some(first), Some(second)] = surfaces.map(place) {
+                let both = ([first, second], kind);
+                if !found.contains(&both) {
+                    found.push(both);
+                }
+            }
+            found.len() < MOST_PER_LINT
+        });
+        for ([first, second], kind) in found {
+            let (message, label, help) = match kind {
+                Kind::Objects => (
+                    "two objects have surfaces in the same place, and rounding may decide which is seen",
+                    "a part of its surface lies in that of another object",
+                    "move one of them a little, or let one end inside the other",
+                ),
+                Kind::Skin => (
+                    "two surfaces of a solid are in the same place, and rounding decides whether a skin is left between",
+                    "a part of its surface lies in that of another part",
+                    "let what is cut away reach a little beyond what it is cut from",
+                ),
+                Kind::Parts => (
+                    "two surfaces of a solid are in the same place, and rounding may decide which is seen",
+                    "a part of its surface lies in that of another part",
+                    "move one of them a little, or let one end inside the other",
+                ),
+                Kind::Clip => (
+                    "a surface lies in that of what it is clipped by, and rounding decides whether it is left",
+                    "a part of its surface lies in that of the other",
+                    "let the solid reach a little beyond, or end before",
+                ),
+            };
+            let warning = Diagnostic::warning("coincident-surfaces", message, second, label).with_help(help);
+            self.warn(if first == second {
+                warning.with_note("both are made in this place")
+            } else {
+                warning.with_secondary(first, "the other")
+            });
+        }
     }
 
     /// Warns of lights and of a camera inside of spheres. A sphere around both is a room, and well meant.
@@ -132,9 +195,12 @@ impl Machine<'_> {
 
 /// Whether anything in the scene is not black without lights: a mirror shows the background.
 fn has_own_light(scene: &Scene) -> bool {
-    scene.primitives.iter().any(|primitive| {
-        !primitive.material.reflection.is_zero() || !primitive.material.transmission.is_zero()
-    })
+    materials(scene).any(|material| !material.reflection.is_zero() || !material.transmission.is_zero())
+}
+
+/// The materials of objects, and of the parts of those that are made of others.
+fn materials(scene: &Scene) -> impl Iterator<Item = &Material> {
+    scene.primitives.iter().flat_map(Primitive::leaves).map(|leaf| &*leaf.material).take(MOST_PARTS)
 }
 
 /// The inside of a sphere, wherever it is placed.

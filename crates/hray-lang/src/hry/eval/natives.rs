@@ -5,7 +5,7 @@ use super::failure::{Failure, Outcome};
 use super::limits::Charge;
 use super::machine::{Machine, depends_on_hit, grouped};
 use super::scalar::{assemble, parts};
-use super::value::{HitValue, Kind, RecordValue, Scalar, ShapeNode, ShapeValue, Symbol, Value};
+use super::value::{HitValue, Hollow, Kind, RecordValue, Scalar, ShapeNode, ShapeValue, Symbol, Value};
 use crate::diagnostic::{Diagnostic, Span};
 use crate::hry::ast::BinaryOperator;
 use crate::hry::library::Native;
@@ -46,6 +46,7 @@ pub(super) const fn arity(native: Native) -> usize {
         | N::Reverse
         | N::Concat
         | N::Show
+        | N::Inverse
         | N::Group => 1,
         N::Atan2
         | N::Min
@@ -62,6 +63,7 @@ pub(super) const fn arity(native: Native) -> usize {
         | N::Union
         | N::Intersection
         | N::Difference
+        | N::Clip
         | N::Paint
         | N::Translate
         | N::Scale
@@ -160,6 +162,21 @@ impl Machine<'_> {
             (N::Union, [a, b]) => self.csg(CsgOperation::Union, a, b, span),
             (N::Intersection, [a, b]) => self.csg(CsgOperation::Intersection, a, b, span),
             (N::Difference, [a, b]) => self.csg(CsgOperation::Difference, a, b, span),
+            (N::Inverse, [Value::Shape(solid)]) => {
+                if let Some(hollow) = solid.hollow() {
+                    return Err(not_a_solid(&hollow, "in it", span));
+                }
+                let origin = self.origin(span);
+                Self::shape(ShapeNode::Inverse { solid: solid.clone(), origin }, solid.nesting + 1, span)
+            }
+            (N::Clip, [Value::Shape(within), Value::Shape(shape)]) => {
+                if let Some(hollow) = within.hollow() {
+                    return Err(not_a_solid(&hollow, "in what it is clipped by", span));
+                }
+                let nesting = within.nesting.max(shape.nesting) + 1;
+                let (within, shape, origin) = (within.clone(), shape.clone(), self.origin(span));
+                Self::shape(ShapeNode::Clip { within, shape, origin }, nesting, span)
+            }
             (N::Group, [Value::List(list)]) => {
                 let nesting = list.items.iter().map(|item| match item {
                     Value::Shape(shape) => shape.nesting,
@@ -440,8 +457,8 @@ impl Machine<'_> {
         let (Value::Shape(a), Value::Shape(b)) = (a, b) else {
             return Err(internal(span, "a solid of something else than shapes").into());
         };
-        if let Some(shape) = a.hollow().or_else(|| b.hollow()) {
-            return Err(hollow(shape, span));
+        if let Some(hollow) = a.hollow().or_else(|| b.hollow()) {
+            return Err(not_a_solid(&hollow, "in one of the two", span));
         }
         let nesting = a.nesting.max(b.nesting) + 1;
         let origin = self.origin(span);
@@ -620,27 +637,28 @@ fn no_element(index: f64, count: usize, span: Span) -> Box<Failure> {
 }
 
 /// Why a shape without an inside cannot be a part of solids.
-fn hollow(shape: &Shape, span: Span) -> Box<Failure> {
+fn not_a_solid(hollow: &Hollow<'_>, place: &str, span: Span) -> Box<Failure> {
     let message = "what has no inside cannot be part of a solid";
-    let error = |label: &str| Diagnostic::error("not-a-solid", message, span, label);
+    let error = |label: String| Diagnostic::error("not-a-solid", message, span, label);
     let group = "`group` puts shapes together without joining them";
-    Failure::new(match shape {
-        Shape::Mesh(mesh) if mesh.triangles().is_empty() => {
-            error("a mesh in one of the two is empty").with_help(group)
+    Failure::new(match hollow {
+        Hollow::Shape(Shape::Mesh(mesh)) if mesh.triangles().is_empty() => {
+            error(format!("a mesh {place} is empty")).with_help(group)
         }
-        Shape::Mesh(mesh) => {
-            let label = match mesh.open_edges() {
-                1 => "a mesh in one of the two is not closed: at an edge something is missing".to_owned(),
-                count => {
-                    format!("a mesh in one of the two is not closed: {} of its edges are open", grouped(count as u64))
-                }
-            };
-            error(&label).with_help(format!(
-                "close its holes in the program that made it, and let all triangles go round the same way; or {group}"
-            ))
-        }
-        _ => error("a disc or something open is in one of the two").with_help(format!(
+        Hollow::Shape(Shape::Mesh(mesh)) => error(match mesh.open_edges() {
+            1 => format!("a mesh {place} is not closed: at an edge something is missing"),
+            count => {
+                format!("a mesh {place} is not closed: {} of its edges are open", grouped(count as u64))
+            }
+        })
+        .with_help(format!(
+            "close its holes in the program that made it, and let all triangles go round the same way; or {group}"
+        )),
+        Hollow::Shape(_) => error(format!("a disc or something open is {place}")).with_help(format!(
             "{group}; spheres, planes, boxes, cylinders, cones, tori, closed meshes and what is made of them have an inside"
         )),
+        Hollow::Clipped => error(format!("something that is clipped is {place}")).with_help(
+            "what is clipped is open where it was cut; `intersection` cuts and leaves a solid, and `clip` can come last",
+        ),
     })
 }

@@ -13,10 +13,10 @@ use crate::diagnostic::{Diagnostic, Span};
 use crate::hry::assets::Assets;
 use crate::hry::library::{Constructor, constructor};
 use crate::hry::program::{Global, Program};
-use glam::DAffine3;
+use glam::{DAffine3, DVec3};
 use hray_core::{
-    Background, Csg, CsgOperation, Description, Field, Material, Primitive, Resolution, Rgb, Scene, Shape,
-    Texture,
+    Background, Clip, Csg, CsgOperation, Description, Field, Material, Primitive, Quadric, Resolution, Rgb,
+    Scene, Shape, Texture,
 };
 use std::collections::HashMap;
 use std::num::NonZeroU32;
@@ -229,7 +229,7 @@ impl Machine<'_> {
         let lights = lights.iter().map(|light| light.light).collect();
         let scene = Scene { camera, background, primitives, lights, time };
         let description = Description { resolution, max_depth, samples, integrator, encoding, scene };
-        self.lint(&description, places);
+        self.lint(&description, &origins, places);
         Ok((description, origins))
     }
 
@@ -280,6 +280,38 @@ impl Machine<'_> {
                 let material = self.material_of(None, materials)?;
                 into.push(Primitive { shape, transform: transform.cloned(), material }, *origin, parts);
             }
+            ShapeNode::Inverse { solid, origin } => {
+                let (shape, parts) = match self.operand(solid, material, materials, span)? {
+                    Some((solid, parts)) => (Shape::Inverse(Arc::new(solid)), parts),
+                    // What is everywhere, without a surface.
+                    None => {
+                        let [square, product, linear] = [DVec3::ZERO; 3];
+                        let everything = Quadric { square, product, linear, constant: -1.0 };
+                        (Shape::Quadric(Arc::new(everything)), Vec::new())
+                    }
+                };
+                let material = self.material_of(None, materials)?;
+                into.push(Primitive { shape, transform: transform.cloned(), material }, *origin, parts);
+            }
+            ShapeNode::Clip { within, shape, origin } => {
+                // Within nothing there is nothing.
+                let Some((within, more)) = self.operand(within, material, materials, span)? else {
+                    return Ok(());
+                };
+                let mut flat = Flat::default();
+                self.flatten(shape, None, material, materials, &mut flat, span)?;
+                let plain = self.material_of(None, materials)?;
+                for (i, shape) in flat.primitives.into_iter().enumerate() {
+                    let mut parts = flat.parts.remove(&i).unwrap_or_else(|| vec![flat.origins[i]]);
+                    for part in &more {
+                        self.step(span)?;
+                        parts.push(*part);
+                    }
+                    let shape = Shape::Clip(Arc::new(Clip { shape, within: within.clone() }));
+                    let clipped = Primitive { shape, transform: transform.cloned(), material: plain.clone() };
+                    into.push(clipped, *origin, parts);
+                }
+            }
             ShapeNode::Group(list) => {
                 for item in &list.items {
                     if let Value::Shape(shape) = item {
@@ -312,7 +344,7 @@ impl Machine<'_> {
         };
         let operand = Primitive { transform: whole, ..operand };
         match (&operand.shape, &parts[..]) {
-            (Shape::Csg(_), _) => into.push(operand, origin, parts),
+            (shape, _) if shape.is_made_of_others() => into.push(operand, origin, parts),
             (_, [only]) => into.push(operand, *only, Vec::new()),
             _ => into.push(operand, origin, Vec::new()),
         }

@@ -165,10 +165,11 @@ pub(super) struct ShapeValue {
 
 impl ShapeValue {
     /// What of it has no inside, if anything has none.
-    pub(super) fn hollow(&self) -> Option<&Shape> {
+    pub(super) fn hollow(&self) -> Option<Hollow<'_>> {
         match &self.node {
-            ShapeNode::Leaf { shape, .. } => (!shape.is_solid()).then_some(shape),
-            ShapeNode::Csg { .. } => None,
+            ShapeNode::Leaf { shape, .. } => (!shape.is_solid()).then_some(Hollow::Shape(shape)),
+            ShapeNode::Csg { .. } | ShapeNode::Inverse { .. } => None,
+            ShapeNode::Clip { .. } => Some(Hollow::Clipped),
             ShapeNode::Group(list) => list.items.iter().find_map(|item| match item {
                 Value::Shape(shape) => shape.hollow(),
                 _ => None,
@@ -176,6 +177,13 @@ impl ShapeValue {
             ShapeNode::Placed { shape, .. } | ShapeNode::Painted { shape, .. } => shape.hollow(),
         }
     }
+}
+
+/// What has no inside.
+pub(super) enum Hollow<'a> {
+    Shape(&'a Shape),
+    /// Whatever is clipped.
+    Clipped,
 }
 
 #[derive(Debug)]
@@ -189,6 +197,15 @@ pub(super) enum ShapeNode {
     Csg {
         operation: CsgOperation,
         operands: [Arc<ShapeValue>; 2],
+        origin: u32,
+    },
+    Inverse {
+        solid: Arc<ShapeValue>,
+        origin: u32,
+    },
+    Clip {
+        within: Arc<ShapeValue>,
+        shape: Arc<ShapeValue>,
         origin: u32,
     },
     Group(Arc<ListValue>),
@@ -274,7 +291,11 @@ impl Value {
         const SMALL: u64 = 64;
         match self {
             Self::Shape(shape) if Arc::strong_count(shape) == 1 => match &shape.node {
-                ShapeNode::Leaf { .. } | ShapeNode::Csg { .. } | ShapeNode::Group(_) => SHAPE,
+                ShapeNode::Leaf { .. }
+                | ShapeNode::Csg { .. }
+                | ShapeNode::Inverse { .. }
+                | ShapeNode::Clip { .. }
+                | ShapeNode::Group(_) => SHAPE,
                 ShapeNode::Placed { .. } | ShapeNode::Painted { .. } => 2 * SHAPE + 112,
             },
             Self::Record(record) if Arc::strong_count(record) == 1 => {

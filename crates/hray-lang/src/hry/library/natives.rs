@@ -107,6 +107,13 @@ natives! {
         Intersection "intersection": "Shape -> Shape -> Shape", "What is inside both of two solids.";
         Difference "difference": "Shape -> Shape -> Shape",
             "`difference a b` is a without what is inside b. Where b cuts, its surface is seen, with its material.";
+        Inverse "inverse": "Shape -> Shape",
+            "All that is not inside a solid: `inverse hole` is a block without end around a hole. Its surface is turned \
+             inside out.";
+        Clip "clip": "Shape -> Shape -> Shape",
+            "`shape |> clip solid` leaves of a shape the surface that is inside the solid. The cut is not closed: one looks \
+             in, where `intersection` would show the solid's own surface. Shapes without an inside can be clipped as well; \
+             of a group each is clipped by itself.";
         Group "group": "[Shape] -> Shape", "Several shapes as one, to be moved or painted together.";
         Paint "paint": "Material -> Shape -> Shape", "Gives a material to whatever in a shape has none.";
     }

@@ -42,6 +42,7 @@ const FOREIGN: &[Foreign] = &[
     ),
     Foreign("case", "", "cases are written `match x { 0 -> a, _ -> b }`"),
     Foreign("ceiling", "ceil", ""),
+    Foreign("clipped_by", "clip", "`shape |> clip solid` leaves what is inside the solid"),
     Foreign("clock", "", "the time in seconds is the parameter of the scene: `scene t = { ... }`"),
     Foreign(
         "color",
@@ -53,6 +54,7 @@ const FOREIGN: &[Foreign] = &[
         "",
         "a colour is `rgb 1 0.5 0` or `#ff8800`; a material of that colour `classic { color = #ff8800 }`",
     ),
+    Foreign("complement", "inverse", ""),
     Foreign("concatmap", "", "a comprehension does it: `[ y | x <- list, y <- f x ]`"),
     Foreign("const", "", "a function that ignores its argument is `\\_ -> x`"),
     Foreign("cuboid", "box", ""),
@@ -102,6 +104,7 @@ const FOREIGN: &[Foreign] = &[
     Foreign("int", "", "there is one kind of numbers; `floor x` drops what follows the point"),
     Foreign("intersect", "intersection", ""),
     Foreign("inversesqrt", "", "write `1 / sqrt x`"),
+    Foreign("invert", "inverse", ""),
     Foreign(
         "isosurface",
         "implicit",
