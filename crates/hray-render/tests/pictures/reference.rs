@@ -1,9 +1,7 @@
 //! A tracer of obvious code: one ray, every crossing with every surface, and for solids whether points are inside.
 
-use hray_core::{
-    CsgOperation, DAffine3, DVec3, Frustum, Implicit, Mesh, NoiseTables, Primitive, Quadric, Shape, Torus,
-};
-use hray_expr::Input;
+use hray_core::{CsgOperation, DAffine3, DVec3, Frustum, Implicit, Mesh, Primitive, Quadric, Shape, Torus};
+use hray_expr::{Binary, Node, NodeId, Unary};
 
 /// Where a ray meets something: distance, point, outward normal.
 #[derive(Clone, Copy, Debug)]
@@ -75,25 +73,27 @@ fn crossings(primitive: &Primitive, outer: DAffine3, origin: DVec3, direction: D
             let at = |t: f64| in_implicit(surface, o + d * t);
             let size = (surface.max - surface.min).length() / d.length();
             let start = ((surface.min + surface.max) * 0.5 - o).dot(d) / d.length_squared() - 0.51 * size;
-            let step = size / 200.0;
+            let step = size / 100.0;
             // The functions here change no faster than this.
-            let is_near = |t: f64| implicit_value(surface, o + d * t).abs() < 3.0 * step * d.length();
+            let is_near = |value: f64| value.abs() < 2.0 * step * d.length();
+            let value = |t: f64| implicit_value(surface, o + d * t);
             let mut found = Vec::new();
-            for i in 0..204 {
+            let (mut low, mut before) = (start, at(start));
+            for i in 0..102 {
                 let from = start + f64::from(i) * step;
-                let parts = if is_near(from) || is_near(from + step) { 200 } else { 1 };
-                for part in 0..parts {
-                    let place = |part: u32| from + step * (f64::from(part) / f64::from(parts));
-                    let (mut low, mut high) = (place(part), place(part + 1));
-                    let before = at(low);
-                    if before == at(high) {
-                        continue;
+                let parts = if is_near(value(from)) || is_near(value(from + step)) { 20 } else { 1 };
+                for part in 1..=parts {
+                    let to = from + step * (f64::from(part) / f64::from(parts));
+                    let after = at(to);
+                    if before != after {
+                        let mut high = to;
+                        for _ in 0..50 {
+                            let middle = 0.5 * (low + high);
+                            if at(middle) == before { low = middle } else { high = middle }
+                        }
+                        found.push((high, implicit_normal(surface, o + d * high)));
                     }
-                    for _ in 0..60 {
-                        let middle = 0.5 * (low + high);
-                        if at(middle) == before { low = middle } else { high = middle }
-                    }
-                    found.push((high, implicit_normal(surface, o + d * high)));
+                    (low, before) = (to, after);
                 }
             }
             found
@@ -190,10 +190,25 @@ fn crossings(primitive: &Primitive, outer: DAffine3, origin: DVec3, direction: D
     found.into_iter().map(hit).collect()
 }
 
+/// Of functions of few operations of few kinds: `Function::evaluate` takes memory for each.
 fn implicit_value(surface: &Implicit, p: DVec3) -> f64 {
-    let mut inputs = [0.0; Input::COUNT];
-    inputs[..3].copy_from_slice(&p.to_array());
-    surface.function.evaluate(&NoiseTables::default(), &inputs)[0]
+    let mut values = [0.0; 32];
+    let nodes = surface.function.nodes();
+    for (i, node) in nodes.iter().enumerate() {
+        let of = |id: &NodeId| values[id.0 as usize];
+        values[i] = match node {
+            Node::Constant(v) => *v,
+            Node::Input(input) => p[*input as usize],
+            Node::Unary(Unary::Sqrt, x) => of(x).sqrt(),
+            Node::Unary(Unary::Sin, x) => libm::sin(of(x)),
+            Node::Binary(Binary::Add, x, y) => of(x) + of(y),
+            Node::Binary(Binary::Sub, x, y) => of(x) - of(y),
+            Node::Binary(Binary::Mul, x, y) => of(x) * of(y),
+            Node::Binary(Binary::Div, x, y) => of(x) / of(y),
+            other => panic!("{other:?}"),
+        };
+    }
+    values[surface.function.outputs()[0].0 as usize]
 }
 
 fn in_implicit(surface: &Implicit, p: DVec3) -> bool {

@@ -67,7 +67,7 @@ fn random_clipped_shapes_are_the_references() {
     };
     let scene = |seed, show| {
         let n = &mut Numbers(seed * 79);
-        (0..4 + n.below(3)).map(|_| clipped(n, show)).collect()
+        (0..6 + n.below(3)).map(|_| clipped(n, show)).collect()
     };
     compare(scene, &[Integrator::Classic, Integrator::Classic2005], 1e-9);
 }
