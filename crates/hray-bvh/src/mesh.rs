@@ -2,7 +2,7 @@
 
 use crate::build::{Primitive, Store, build};
 use crate::prefetch::prefetch;
-use crate::triangle::{Block, Shear, hits};
+use crate::triangle::{Block, LANES, Shear, hits};
 use crate::{Bounds, Leaves, Ray, Stack, Tree};
 use fearless_simd::prelude::*;
 use std::fmt;
@@ -108,7 +108,7 @@ impl TriangleMesh {
         self.tree.bytes() + self.blocks.capacity() * size_of::<Block>()
     }
 
-    /// How many nodes the tree has, and how many blocks of up to four triangles.
+    /// How many nodes the tree has, and how many blocks of up to eight triangles.
     #[must_use]
     pub fn counts(&self) -> (usize, usize) {
         (self.tree.nodes(), self.blocks.len())
@@ -170,7 +170,7 @@ impl Leaves for MeshLeaves<'_> {
             let Some(found) = hits(simd, block, &self.shear, ray.near, ray.far) else { continue };
             let mut mask = found.mask;
             while mask != 0 {
-                let lane = (mask.trailing_zeros() & 3) as usize;
+                let lane = (mask.trailing_zeros() & 7) as usize;
                 mask &= mask - 1;
                 let (distance, triangle) = (found.distance[lane], block.numbers[lane]);
                 let nearer = distance < ray.far
@@ -201,7 +201,7 @@ struct Packed<'a> {
 }
 
 impl Store for Packed<'_> {
-    const UNIT: usize = 4;
+    const UNIT: usize = LANES;
     const NODE_COST: f32 = 1.0;
 
     fn empty(&self) -> Self {
@@ -213,7 +213,7 @@ impl Store for Packed<'_> {
     }
 
     fn push(&mut self, primitives: &[Primitive]) {
-        for chunk in primitives.chunks(4) {
+        for chunk in primitives.chunks(LANES) {
             let mut block = Block::EMPTY;
             for (lane, primitive) in chunk.iter().enumerate() {
                 block.numbers[lane] = primitive.number();
