@@ -6,13 +6,15 @@
 
 use crate::Bounds;
 use crate::collapse::{Binary, Collapse};
+use crate::memory::{Array, Plain};
 use crate::tree::{Child, MOST_UNITS, Node, Tree, WIDTH};
 use fearless_simd::{Level, dispatch, f32x4, prelude::*};
 use rayon::prelude::*;
+use zerocopy::{FromBytes, Immutable, IntoBytes, KnownLayout};
 
 /// A thing to be sorted into the tree: half a cache line, read as two vectors.
 #[repr(C, align(32))]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, FromBytes, IntoBytes, Immutable, KnownLayout)]
 pub(crate) struct Primitive {
     /// The fourth is not used.
     min: [f32; 4],
@@ -41,28 +43,21 @@ impl Primitive {
     }
 }
 
-/// Where the things in leaves are kept, in units of up to `UNIT` things that are tested together.
-pub(crate) trait Store: Send + Sync + Sized {
+/// What leaves are made of: units of up to `UNIT` things that are tested together.
+pub(crate) trait Store: Sync {
+    type Unit: Plain;
     const UNIT: usize;
     /// What a node costs, where a unit costs 1.
     const NODE_COST: f32;
-    /// One for a part of the tree.
-    fn empty(&self) -> Self;
-    /// How many units it has.
-    fn len(&self) -> usize;
-    /// Adds a leaf.
-    fn push(&mut self, primitives: &[Primitive]);
-    /// Adds all of another, behind.
-    fn append(&mut self, other: Self);
-    /// Makes room for so many units.
-    fn reserve(&mut self, units: usize);
+    /// Makes one.
+    fn unit(&self, primitives: &[Primitive]) -> Self::Unit;
 }
 
 const MOST_BINS: usize = 32;
 /// Sets of more things are built by several threads.
 const PARALLEL: usize = 1 << 13;
 /// Things that a thread bins at a time.
-const CHUNK: usize = 1 << 15;
+pub(crate) const CHUNK: usize = 1 << 15;
 /// Deeper down, sets are halved.
 const DEEPEST: usize = 40;
 
@@ -145,82 +140,82 @@ impl Set {
 }
 
 /// A part of the tree, before it is put together.
-enum Part<S> {
-    /// Nodes that begin with the part's first, and what is in its leaves.
-    Whole { nodes: Vec<Node>, store: S, depth: usize },
+enum Part {
+    /// Nodes that begin with the part's first, and how many things are in each leaf, in order.
+    Whole { nodes: Vec<Node>, leaves: Vec<u32>, units: usize },
     /// A node whose children were built apart.
-    Forked { node: Box<Node>, parts: Vec<(usize, Self)>, store: S },
+    Forked { sets: Vec<(Set, Branch)>, nodes: usize, units: usize },
 }
 
-impl<S: Store> Part<S> {
+enum Branch {
+    Leaf,
+    Part(Part),
+}
+
+impl Part {
     /// How many nodes and units it has.
     fn len(&self) -> (usize, usize) {
         match self {
-            Self::Whole { nodes, store, .. } => (nodes.len(), store.len()),
-            Self::Forked { parts, store, .. } => {
-                parts.iter().fold((1, store.len()), |(nodes, units), (_, part)| {
-                    let (more_nodes, more_units) = part.len();
-                    (nodes + more_nodes, units + more_units)
-                })
-            }
+            Self::Whole { nodes, units, .. } => (nodes.len(), *units),
+            Self::Forked { nodes, units, .. } => (*nodes, *units),
         }
     }
 }
 
-/// Builds a tree, and fills a store with what is in its leaves.
-pub(crate) fn build<S: Store>(mut primitives: Vec<Primitive>, store: S) -> (Tree, S) {
+/// Builds a tree, and the units in its leaves.
+pub(crate) fn build<S: Store>(mut primitives: Array<Primitive>, store: &S) -> (Tree, Array<S::Unit>) {
     let extent = extent(&primitives);
     let bounds = extent.bounds();
-    let mut tree = Tree { nodes: Vec::new(), root: None, bounds, reach: bounds.reach(), stack: 1 };
-    let mut all = store.empty();
     if primitives.is_empty() {
-        return (tree, all);
+        let tree = Tree { nodes: Array::zeroed(0), root: None, bounds, reach: bounds.reach(), stack: 1 };
+        return (tree, Array::zeroed(0));
     }
     let set = Set { start: 0, end: primitives.len(), extent, is_leaf: false };
-    let whole = part(&mut primitives, set, &store, 0);
-    drop(primitives);
+    let (whole, depth) = part::<S>(&mut primitives, set, 0);
     let (nodes, units) = whole.len();
-    tree.nodes.reserve_exact(nodes);
-    all.reserve(units);
-    let (root, depth) = flatten(whole, &mut tree.nodes, &mut all);
-    tree.root = Some(root);
-    tree.stack = (WIDTH - 1) * depth + 1;
-    (tree, all)
+    let (mut nodes, mut units) = (Array::zeroed(nodes), Array::zeroed(units));
+    Joiner { store }.join(whole, Places { node: 0, unit: 0 }, &primitives, &mut nodes, &mut units);
+    let root = Some(Child::node(0));
+    (Tree { nodes, root, bounds, reach: bounds.reach(), stack: (WIDTH - 1) * depth + 1 }, units)
 }
 
-/// Builds a set, with others if it is large.
-fn part<S: Store>(primitives: &mut [Primitive], set: Set, store: &S, depth: usize) -> Part<S> {
-    let mut own = store.empty();
+/// Builds a set, with others if it is large. Returns how deep its nodes go.
+fn part<S: Store>(primitives: &mut [Primitive], set: Set, depth: usize) -> (Part, usize) {
     if set.len() <= PARALLEL {
-        let (nodes, depth) = whole(primitives, set, &mut own);
-        return Part::Whole { nodes, store: own, depth };
+        return whole::<S>(primitives, set);
     }
     let sets = cut::<S>(primitives, set, depth);
-    let mut node = Box::new(Node::EMPTY);
-    let mut rest = &mut primitives[..];
-    let mut taken = set.start;
+    let mut rest = primitives;
     let mut jobs = Vec::new();
-    for (slot, child) in sets.iter().enumerate() {
-        let (before, after) = rest.split_at_mut(child.end - taken);
-        (rest, taken) = (after, child.end);
-        if child.is_leaf {
-            node.set(slot, &child.extent.bounds(), push(before, &mut own));
-        } else {
-            node.set(slot, &child.extent.bounds(), Child::node(0));
-            let here = Set { start: 0, end: before.len(), ..*child };
-            jobs.push((slot, before, here));
-        }
+    for child in sets {
+        let (before, after) = rest.split_at_mut(child.len());
+        rest = after;
+        jobs.push((child, before));
     }
-    let parts = jobs
-        .into_par_iter()
-        .with_max_len(1)
-        .map(|(slot, primitives, set)| (slot, part(primitives, set, store, depth + 1)))
-        .collect();
-    Part::Forked { node, parts, store: own }
+    let make = |(set, primitives): (Set, &mut [Primitive])| {
+        if set.is_leaf {
+            return (set, Branch::Leaf, 0);
+        }
+        let here = Set { start: 0, end: primitives.len(), ..set };
+        let (part, deep) = part::<S>(primitives, here, depth + 1);
+        (set, Branch::Part(part), deep)
+    };
+    let made: Vec<(Set, Branch, usize)> = jobs.into_par_iter().with_max_len(1).map(make).collect();
+    let (mut nodes, mut units, mut deepest) = (1, 0, 0);
+    let mut sets = Vec::with_capacity(made.len());
+    for (set, branch, deep) in made {
+        let (more_nodes, more_units) = match &branch {
+            Branch::Leaf => (0, set.len().div_ceil(S::UNIT)),
+            Branch::Part(part) => part.len(),
+        };
+        (nodes, units, deepest) = (nodes + more_nodes, units + more_units, deepest.max(deep));
+        sets.push((set, branch));
+    }
+    (Part::Forked { sets, nodes, units }, deepest + 1)
 }
 
 /// Builds a set's nodes, its own first. Returns how deep they go.
-fn whole<S: Store>(primitives: &mut [Primitive], set: Set, store: &mut S) -> (Vec<Node>, usize) {
+fn whole<S: Store>(primitives: &mut [Primitive], set: Set) -> (Part, usize) {
     let mut binary = Vec::with_capacity(set.len());
     halve::<S>(primitives, set, &mut binary, 0, &mut Box::new(NO_BINS));
     let leaf = |count: usize| {
@@ -228,9 +223,102 @@ fn whole<S: Store>(primitives: &mut [Primitive], set: Set, store: &mut S) -> (Ve
         (units <= MOST_UNITS).then_some(units as f32)
     };
     let collapse = Collapse::new(&binary, S::NODE_COST, leaf);
-    let mut nodes = Vec::with_capacity(binary.len() / 4);
-    let depth = emit(&binary, &collapse, 0, primitives, &mut nodes, store);
-    (nodes, depth)
+    let mut emit = Emit {
+        binary: &binary,
+        collapse: &collapse,
+        unit: S::UNIT,
+        nodes: Vec::with_capacity(binary.len() / 4),
+        leaves: Vec::with_capacity(binary.len() / 2 + 1),
+        units: 0,
+    };
+    let depth = emit.node(0);
+    let Emit { nodes, leaves, units, .. } = emit;
+    (Part::Whole { nodes, leaves, units }, depth)
+}
+
+/// The first node and the first unit of a part.
+#[derive(Clone, Copy)]
+struct Places {
+    node: usize,
+    unit: usize,
+}
+
+/// Puts parts together, each where it belongs.
+struct Joiner<'a, S> {
+    store: &'a S,
+}
+
+impl<S: Store> Joiner<'_, S> {
+    fn join(
+        &self,
+        part: Part,
+        first: Places,
+        primitives: &[Primitive],
+        nodes: &mut [Node],
+        units: &mut [S::Unit],
+    ) {
+        match part {
+            Part::Whole { nodes: made, leaves, .. } => {
+                for (place, node) in nodes.iter_mut().zip(&made) {
+                    *place = node.moved(first.node, first.unit);
+                }
+                drop(made);
+                let mut rest = primitives;
+                let mut units = units.iter_mut();
+                for count in leaves {
+                    let (leaf, after) = rest.split_at(count as usize);
+                    rest = after;
+                    self.fill(leaf, &mut units);
+                }
+            }
+            Part::Forked { sets, .. } => {
+                let Some((node, nodes)) = nodes.split_first_mut() else { return };
+                *node = Node::EMPTY;
+                let mut next = Places { node: first.node + 1, unit: first.unit };
+                let (mut nodes, mut units) = (nodes, units);
+                let mut jobs = Vec::with_capacity(WIDTH);
+                for (slot, (set, branch)) in sets.into_iter().enumerate() {
+                    let bounds = set.extent.bounds();
+                    let primitives = &primitives[set.start..set.end];
+                    let (more_nodes, more_units) = match branch {
+                        Branch::Leaf => {
+                            let count = set.len().div_ceil(S::UNIT);
+                            node.set(slot, &bounds, Child::leaf(next.unit, count));
+                            self.fill(primitives, &mut units.iter_mut());
+                            (0, count)
+                        }
+                        Branch::Part(_) => {
+                            node.set(slot, &bounds, Child::node(next.node));
+                            if let Branch::Part(part) = &branch { part.len() } else { (0, 0) }
+                        }
+                    };
+                    let (here_nodes, after_nodes) = nodes.split_at_mut(more_nodes);
+                    let (here_units, after_units) = units.split_at_mut(more_units);
+                    (nodes, units) = (after_nodes, after_units);
+                    if let Branch::Part(part) = branch {
+                        jobs.push((part, next, primitives, here_nodes, here_units));
+                    }
+                    next = Places { node: next.node + more_nodes, unit: next.unit + more_units };
+                }
+                jobs.into_par_iter().with_max_len(1).for_each(|(part, first, primitives, nodes, units)| {
+                    self.join(part, first, primitives, nodes, units);
+                });
+            }
+        }
+    }
+
+    /// Makes the units of a leaf.
+    fn fill<'a>(&self, leaf: &[Primitive], units: &mut impl Iterator<Item = &'a mut S::Unit>)
+    where
+        S::Unit: 'a,
+    {
+        for chunk in leaf.chunks(S::UNIT) {
+            // There are as many places as units were counted.
+            if let Some(unit) = units.next() {
+                *unit = self.store.unit(chunk);
+            }
+        }
+    }
 }
 
 /// Cuts a set into up to eight, in the order of their places.
@@ -277,61 +365,39 @@ fn halve<S: Store>(
     index
 }
 
-/// Makes a node of eight from one of two, and all below it. Returns how deep they go.
-fn emit<S: Store>(
-    binary: &[Binary],
-    collapse: &Collapse<'_>,
-    index: usize,
-    primitives: &[Primitive],
-    nodes: &mut Vec<Node>,
-    store: &mut S,
-) -> usize {
-    let place = nodes.len();
-    nodes.push(Node::EMPTY);
-    let mut deepest = 0;
-    for (slot, child) in collapse.children(index).iter().enumerate() {
-        let reference = if collapse.is_leaf(child) {
-            push(&primitives[binary[child].places.clone()], store)
-        } else {
-            let reference = Child::node(nodes.len());
-            deepest = deepest.max(emit(binary, collapse, child, primitives, nodes, store));
-            reference
-        };
-        nodes[place].set(slot, &binary[child].bounds, reference);
-    }
-    deepest + 1
+/// Makes nodes of eight from nodes of two.
+struct Emit<'a> {
+    binary: &'a [Binary],
+    collapse: &'a Collapse<'a>,
+    /// How many things are in a unit.
+    unit: usize,
+    nodes: Vec<Node>,
+    /// How many things are in each leaf.
+    leaves: Vec<u32>,
+    units: usize,
 }
 
-fn push<S: Store>(primitives: &[Primitive], store: &mut S) -> Child {
-    let first = store.len();
-    store.push(primitives);
-    Child::leaf(first, store.len() - first)
-}
-
-/// Puts parts together; the root and the depth.
-fn flatten<S: Store>(part: Part<S>, nodes: &mut Vec<Node>, store: &mut S) -> (Child, usize) {
-    let (first_node, first_unit) = (nodes.len(), store.len());
-    match part {
-        Part::Whole { nodes: mut new, store: units, depth } => {
-            for node in &mut new {
-                node.move_children(first_node, first_unit);
-            }
-            nodes.append(&mut new);
-            store.append(units);
-            (Child::node(first_node), depth)
+impl Emit<'_> {
+    /// Makes one, and all below it. Returns how deep they go.
+    fn node(&mut self, index: usize) -> usize {
+        let place = self.nodes.len();
+        self.nodes.push(Node::EMPTY);
+        let mut deepest = 0;
+        for (slot, child) in self.collapse.children(index).iter().enumerate() {
+            let reference = if self.collapse.is_leaf(child) {
+                let count = self.binary[child].places.len();
+                let units = count.div_ceil(self.unit);
+                self.leaves.push(count as u32);
+                self.units += units;
+                Child::leaf(self.units - units, units)
+            } else {
+                let reference = Child::node(self.nodes.len());
+                deepest = deepest.max(self.node(child));
+                reference
+            };
+            self.nodes[place].set(slot, &self.binary[child].bounds, reference);
         }
-        Part::Forked { mut node, parts, store: units } => {
-            node.move_children(0, first_unit);
-            nodes.push(*node);
-            store.append(units);
-            let mut deepest = 0;
-            for (slot, part) in parts {
-                let (child, depth) = flatten(part, nodes, store);
-                nodes[first_node].point(slot, child);
-                deepest = deepest.max(depth);
-            }
-            (Child::node(first_node), deepest + 1)
-        }
+        deepest + 1
     }
 }
 
@@ -498,14 +564,7 @@ fn split<S: Store>(
         let fits = count <= MOST_UNITS * S::UNIT;
         return (!fits).then(|| halves(here, set));
     };
-    // What has been seen of the right side lies from `left` on, in any order. Each thing is exchanged with the first of these,
-    // and belongs to the left side if that grows: there is no branch, which would be wrong half of the time.
-    let mut left = 0;
-    for place in 0..here.len() {
-        let is_left = ruler.bin(&here[place], cut.axis) < cut.bin;
-        here.swap(left, place);
-        left += usize::from(is_left);
-    }
+    let left = partition(here, &|primitive| ruler.bin(primitive, cut.axis) < cut.bin);
     let middle = set.start + left;
     let [low, high] = cut.extents;
     Some([Set { end: middle, extent: low, ..*set }, Set { start: middle, extent: high, ..*set }])
@@ -516,4 +575,89 @@ fn halves(here: &[Primitive], set: &Set) -> [Set; 2] {
     let (left, right) = here.split_at(here.len() / 2);
     let middle = set.start + left.len();
     [Set { end: middle, extent: extent(left), ..*set }, Set { start: middle, extent: extent(right), ..*set }]
+}
+
+/// Brings things that belong to the left before all others. Returns how many there are.
+fn partition(here: &mut [Primitive], is_left: &(impl Fn(&Primitive) -> bool + Sync)) -> usize {
+    if here.len() <= CHUNK {
+        // What has been seen of the right side lies from `left` on, in any order. Each thing is exchanged with the first of
+        // these, and belongs to the left side if that grows: there is no branch, which would be wrong half of the time.
+        let mut left = 0;
+        for place in 0..here.len() {
+            let is_left = is_left(&here[place]);
+            here.swap(left, place);
+            left += usize::from(is_left);
+        }
+        return left;
+    }
+    // Each chunk by itself; then what is right in the left part is exchanged with what is left in the right part.
+    let lefts: Vec<usize> = here.par_chunks_mut(CHUNK).map(|chunk| partition(chunk, is_left)).collect();
+    let middle = lefts.iter().sum();
+    let (low, high) = here.split_at_mut(middle);
+    let (mut of_low, mut of_high) = (Vec::new(), Vec::new());
+    let low_chunks = low.chunks_mut(CHUNK).zip(&lefts);
+    of_low.extend(low_chunks.map(|(chunk, &left)| chunk.split_at_mut(left.min(chunk.len())).1));
+    // The chunk that the middle lies in is cut by it.
+    let first = middle / CHUNK;
+    let mut rest = high;
+    for (chunk, &left) in lefts.iter().enumerate().skip(first) {
+        let start = (chunk * CHUNK).max(middle);
+        let (here, after) = rest.split_at_mut(((chunk + 1) * CHUNK - start).min(rest.len()));
+        rest = after;
+        of_high.push(here.split_at_mut((chunk * CHUNK + left).saturating_sub(start)).0);
+    }
+    let mut pairs = Vec::new();
+    let (mut of_low, mut of_high) = (of_low.into_iter(), of_high.into_iter());
+    let (mut a, mut b): (&mut [Primitive], &mut [Primitive]) = (&mut [], &mut []);
+    loop {
+        if a.is_empty() {
+            let Some(next) = of_low.next() else { break };
+            a = next;
+        } else if b.is_empty() {
+            let Some(next) = of_high.next() else { break };
+            b = next;
+        } else {
+            let len = a.len().min(b.len());
+            let ((here_a, after_a), (here_b, after_b)) = (a.split_at_mut(len), b.split_at_mut(len));
+            pairs.push((here_a, here_b));
+            (a, b) = (after_a, after_b);
+        }
+    }
+    pairs.into_par_iter().for_each(|(a, b)| a.swap_with_slice(b));
+    middle
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn chunks_are_partitioned_like_one() {
+        let mut state = 1u32;
+        for (len, share) in [(0, 3), (5, 1), (CHUNK, 2), (CHUNK + 1, 7), (5 * CHUNK + 77, 2), (4 * CHUNK, 9)]
+        {
+            let mut next = || {
+                state = state.wrapping_mul(747_796_405).wrapping_add(2_891_336_453);
+                state >> 16
+            };
+            let box_of = |x: u32| Bounds { min: [x as f32; 3], max: [x as f32; 3] };
+            for sides in [0, 1, share, u32::MAX] {
+                let mut here: Vec<Primitive> =
+                    (0..len as u32).map(|number| Primitive::new(&box_of(next() % share), number)).collect();
+                // On the left: those of place 0, none, all.
+                let is_left = |primitive: &Primitive| match sides {
+                    0 => false,
+                    u32::MAX => true,
+                    sides => primitive.number() % sides == 0 || primitive.min[0] == 0.0,
+                };
+                let expected = here.iter().filter(|primitive| is_left(primitive)).count();
+                assert_eq!(partition(&mut here, &is_left), expected);
+                assert!(here[..expected].iter().all(is_left));
+                assert!(!here[expected..].iter().any(is_left));
+                let mut numbers: Vec<u32> = here.iter().map(Primitive::number).collect();
+                numbers.sort_unstable();
+                assert!(numbers.into_iter().eq(0..len as u32));
+            }
+        }
+    }
 }

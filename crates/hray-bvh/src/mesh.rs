@@ -1,10 +1,12 @@
 //! A tree over triangles.
 
-use crate::build::{Primitive, Store, build};
+use crate::build::{CHUNK, Primitive, Store, build};
+use crate::memory::Array;
 use crate::prefetch::prefetch;
 use crate::triangle::{Block, LANES, Shear, hits};
 use crate::{Bounds, Leaves, Ray, Stack, Tree};
 use fearless_simd::prelude::*;
+use rayon::prelude::*;
 use std::fmt;
 
 /// Where a ray meets a triangle.
@@ -57,7 +59,7 @@ impl std::error::Error for MeshError {}
 #[derive(Clone, Debug, PartialEq)]
 pub struct TriangleMesh {
     tree: Tree,
-    blocks: Vec<Block>,
+    blocks: Array<Block>,
 }
 
 impl TriangleMesh {
@@ -69,24 +71,21 @@ impl TriangleMesh {
         if triangles.len() >= crate::tree::MOST {
             return Err(MeshError::TooMany { triangles: triangles.len() });
         }
-        let mut primitives = Vec::with_capacity(triangles.len());
-        for (number, triangle) in (0u32..).zip(triangles) {
-            let mut bounds = Bounds::EMPTY;
-            let mut finite = true;
-            for &vertex in triangle {
-                let Some(point) = vertices.get(vertex as usize) else {
-                    return Err(MeshError::NoSuchVertex { triangle: number as usize, vertex });
-                };
-                finite &= point.iter().all(|x| x.is_finite());
-                bounds = bounds.union(&Bounds { min: *point, max: *point });
+        let mut primitives = Array::zeroed(triangles.len());
+        let places = primitives.par_chunks_mut(CHUNK).zip(triangles.par_chunks(CHUNK)).enumerate();
+        let make = |(chunk, (places, triangles))| boxes(vertices, triangles, chunk * CHUNK, places);
+        let finite: Vec<Result<usize, MeshError>> = places.map(make).collect();
+        let mut total = 0;
+        for (chunk, count) in finite.into_iter().enumerate() {
+            let count = count?;
+            if total != chunk * CHUNK {
+                primitives.copy_within(chunk * CHUNK..chunk * CHUNK + count, total);
             }
-            if finite {
-                primitives.push(Primitive::new(&bounds, number));
-            }
+            total += count;
         }
-        let empty = Packed { vertices, triangles, blocks: Vec::new() };
-        let (tree, packed) = build(primitives, empty);
-        Ok(Self { tree, blocks: packed.blocks })
+        primitives.truncate(total);
+        let (tree, blocks) = build(primitives, &Packed { vertices, triangles });
+        Ok(Self { tree, blocks })
     }
 
     /// The box of all triangles.
@@ -105,7 +104,7 @@ impl TriangleMesh {
     /// The tree's bytes, triangles included.
     #[must_use]
     pub fn bytes(&self) -> usize {
-        self.tree.bytes() + self.blocks.capacity() * size_of::<Block>()
+        self.tree.bytes() + self.blocks.bytes()
     }
 
     /// How many nodes the tree has, and how many blocks of up to eight triangles.
@@ -193,45 +192,54 @@ impl Leaves for MeshLeaves<'_> {
     }
 }
 
+/// Makes what the tree sorts of triangles, whose numbers begin with `first`, at the beginning of `places`. Returns how many
+/// there are: of triangles that have no box there is nothing.
+fn boxes(
+    vertices: &[[f32; 3]],
+    triangles: &[[u32; 3]],
+    first: usize,
+    places: &mut [Primitive],
+) -> Result<usize, MeshError> {
+    let mut count = 0;
+    for (number, corners) in (first..).zip(triangles) {
+        let mut bounds = Bounds::EMPTY;
+        let mut finite = true;
+        for &vertex in corners {
+            let Some(point) = vertices.get(vertex as usize) else {
+                return Err(MeshError::NoSuchVertex { triangle: number, vertex });
+            };
+            finite &= point.iter().all(|x| x.is_finite());
+            bounds = bounds.union(&Bounds { min: *point, max: *point });
+        }
+        if let Some(place) = places.get_mut(count).filter(|_| finite) {
+            *place = Primitive::new(&bounds, number as u32);
+            count += 1;
+        }
+    }
+    Ok(count)
+}
+
 /// Packs the triangles of leaves into blocks.
 struct Packed<'a> {
     vertices: &'a [[f32; 3]],
     triangles: &'a [[u32; 3]],
-    blocks: Vec<Block>,
 }
 
 impl Store for Packed<'_> {
+    type Unit = Block;
     const UNIT: usize = LANES;
-    const NODE_COST: f32 = 1.0;
+    const NODE_COST: f32 = 1.4;
 
-    fn empty(&self) -> Self {
-        Self { blocks: Vec::new(), ..*self }
-    }
-
-    fn len(&self) -> usize {
-        self.blocks.len()
-    }
-
-    fn push(&mut self, primitives: &[Primitive]) {
-        for chunk in primitives.chunks(LANES) {
-            let mut block = Block::EMPTY;
-            for (lane, primitive) in chunk.iter().enumerate() {
-                block.numbers[lane] = primitive.number();
-                for (corner, &vertex) in self.triangles[primitive.number() as usize].iter().enumerate() {
-                    for axis in 0..3 {
-                        block.vertices[corner][axis][lane] = self.vertices[vertex as usize][axis];
-                    }
+    fn unit(&self, primitives: &[Primitive]) -> Block {
+        let mut block = Block::EMPTY;
+        for (lane, primitive) in primitives.iter().enumerate() {
+            block.numbers[lane] = primitive.number();
+            for (corner, &vertex) in self.triangles[primitive.number() as usize].iter().enumerate() {
+                for axis in 0..3 {
+                    block.vertices[corner][axis][lane] = self.vertices[vertex as usize][axis];
                 }
             }
-            self.blocks.push(block);
         }
-    }
-
-    fn append(&mut self, other: Self) {
-        self.blocks.extend(other.blocks);
-    }
-
-    fn reserve(&mut self, units: usize) {
-        self.blocks.reserve_exact(units);
+        block
     }
 }

@@ -194,6 +194,7 @@ impl Tree {
         mut visit: impl FnMut(S, &mut Packet, u32, Range<usize>) -> u32,
     ) -> u32 {
         let Some(root) = self.root else { return 0 };
+        let nodes = &self.nodes[..];
         let all = lanes & rays.sane;
         if all == 0 {
             return 0;
@@ -206,7 +207,7 @@ impl Tree {
         let (mut child, mut lanes) = (root.0, all);
         loop {
             if child & LEAF == 0 {
-                let node = &self.nodes[child as usize];
+                let node = &nodes[child as usize];
                 let (nearest, met) = enter(simd, node, rays, lanes);
                 let mut any = fold(met);
                 if any != 0 {
@@ -218,7 +219,7 @@ impl Tree {
                         any &= any - 1;
                         let reference = node.child(slot);
                         // A leaf's number is that of no node.
-                        if let Some(node) = self.nodes.get(reference as usize) {
+                        if let Some(node) = nodes.get(reference as usize) {
                             prefetch(node);
                         }
                         let new = Entry { key: entry(distances[slot], reference), lanes: of_slot(met, slot) };

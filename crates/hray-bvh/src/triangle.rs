@@ -14,6 +14,7 @@
 use crate::Ray;
 use fearless_simd::f32x8;
 use fearless_simd::prelude::*;
+use zerocopy::{FromBytes, Immutable, IntoBytes, KnownLayout};
 
 /// A product in an edge function that is more than so many times the determinant is taken for imprecise.
 const FLAT: f32 = 8.0;
@@ -23,7 +24,7 @@ pub(crate) const LANES: usize = 8;
 
 /// Up to eight triangles, in five cache lines. Those that are missing have no numbers for coordinates, and are never hit.
 #[repr(C, align(64))]
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, FromBytes, IntoBytes, Immutable, KnownLayout)]
 pub(crate) struct Block {
     /// Vertex, axis, triangle.
     pub(crate) vertices: [[[f32; LANES]; 3]; 3],
