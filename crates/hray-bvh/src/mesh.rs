@@ -3,7 +3,7 @@
 use crate::build::{CHUNK, Primitive, Store, build};
 use crate::memory::Array;
 use crate::prefetch::prefetch;
-use crate::triangle::{Block, LANES, Shear, hits};
+use crate::triangle::{Block, LANES, NO_TRIANGLE, Shear, hits};
 use crate::{Bounds, Leaves, Ray, Stack, Tree};
 use fearless_simd::prelude::*;
 use rayon::prelude::*;
@@ -31,6 +31,19 @@ pub enum MeshError {
         /// The vertex.
         vertex: u32,
     },
+    /// Another number of triangles than the mesh was built of.
+    OtherTriangles {
+        /// How many it was built of.
+        built: usize,
+        /// How many there are now.
+        triangles: usize,
+    },
+    /// A triangle that was left out when the mesh was built, because it had a coordinate that was no number or infinite, has
+    /// none any more.
+    LeftOut {
+        /// The triangle.
+        triangle: usize,
+    },
     /// More triangles than the tree can number.
     TooMany {
         /// How many there are.
@@ -43,6 +56,16 @@ impl fmt::Display for MeshError {
         match self {
             Self::NoSuchVertex { triangle, vertex } => {
                 write!(f, "triangle {triangle} has vertex {vertex}, which is not there")
+            }
+            Self::OtherTriangles { built, triangles } => {
+                write!(f, "there are {triangles} triangles, and the mesh was built of {built}: build it anew")
+            }
+            Self::LeftOut { triangle } => {
+                write!(
+                    f,
+                    "triangle {triangle} was left out when the mesh was built, because a coordinate of it was no number or \
+                     infinite; now it can be hit: build the mesh anew"
+                )
             }
             Self::TooMany { triangles } => {
                 write!(f, "{triangles} triangles are more than {}, the most there may be", crate::tree::MOST)
@@ -60,6 +83,10 @@ impl std::error::Error for MeshError {}
 pub struct TriangleMesh {
     tree: Tree,
     blocks: Array<Block>,
+    /// How many triangles there are, those included that are left out.
+    triangles: usize,
+    /// Those that have no box.
+    left_out: Vec<u32>,
 }
 
 impl TriangleMesh {
@@ -84,8 +111,53 @@ impl TriangleMesh {
             total += count;
         }
         primitives.truncate(total);
+        let left_out = if total == triangles.len() {
+            Vec::new()
+        } else {
+            let numbered = (0u32..).zip(triangles);
+            numbered.filter(|(_, corners)| !is_finite(vertices, corners)).map(|(number, _)| number).collect()
+        };
         let (tree, blocks) = build(primitives, &Packed { vertices, triangles });
-        Ok(Self { tree, blocks })
+        Ok(Self { tree, blocks, triangles: triangles.len(), left_out })
+    }
+
+    /// Takes over new places of the vertices: the boxes are worked out anew, but the tree stays as it was sorted. That is much
+    /// quicker than to build it, and as good as long as neighbours stay neighbours. `triangles` are those that the mesh was
+    /// built of. Those that now have a coordinate that is no number or infinite are not hit, until another call moves them
+    /// back.
+    ///
+    /// # Errors
+    /// Where a triangle names a vertex that is not there, where there are more triangles or fewer, or where one that was left
+    /// out by [`Self::build`] could be hit now. Then nothing has changed.
+    pub fn refit(&mut self, vertices: &[[f32; 3]], triangles: &[[u32; 3]]) -> Result<(), MeshError> {
+        if triangles.len() != self.triangles {
+            return Err(MeshError::OtherTriangles { built: self.triangles, triangles: triangles.len() });
+        }
+        for (triangle, corners) in triangles.iter().enumerate() {
+            if let Some(&vertex) = corners.iter().find(|vertex| **vertex as usize >= vertices.len()) {
+                return Err(MeshError::NoSuchVertex { triangle, vertex });
+            }
+        }
+        for triangle in self.left_out.iter().map(|number| *number as usize) {
+            if is_finite(vertices, &triangles[triangle]) {
+                return Err(MeshError::LeftOut { triangle });
+            }
+        }
+        self.blocks.par_iter_mut().with_min_len(1 << 10).for_each(|block| {
+            for (lane, number) in block.numbers.into_iter().enumerate().filter(|(_, n)| *n != NO_TRIANGLE) {
+                let corners = &triangles[number as usize];
+                if is_finite(vertices, corners) {
+                    block.set(lane, number, corners.map(|vertex| vertices[vertex as usize]));
+                } else {
+                    block.set(lane, number, [[f32::NAN; 3]; 3]);
+                }
+            }
+        });
+        let blocks = &self.blocks[..];
+        self.tree.refit(|units| {
+            blocks[units].iter().fold(Bounds::EMPTY, |bounds, block| bounds.union(&block.bounds()))
+        });
+        Ok(())
     }
 
     /// The box of all triangles.
@@ -134,8 +206,7 @@ impl TriangleMesh {
     pub fn candidates<S: Simd>(&self, simd: S, ray: &Ray, stack: &mut Stack, found: impl FnMut(u32)) {
         let mut found = found;
         self.tree.visit(simd, ray, stack, |units| {
-            let numbers = self.blocks[units].iter().flat_map(|block| block.numbers);
-            numbers.filter(|&number| number != u32::MAX).for_each(&mut found);
+            self.blocks[units].iter().flat_map(Block::present).for_each(&mut found);
         });
     }
 
@@ -192,6 +263,11 @@ impl Leaves for MeshLeaves<'_> {
     }
 }
 
+/// Whether a triangle's corners are all numbers and not infinite; they are there.
+fn is_finite(vertices: &[[f32; 3]], corners: &[u32; 3]) -> bool {
+    corners.iter().all(|vertex| vertices[*vertex as usize].iter().all(|x| x.is_finite()))
+}
+
 /// Makes what the tree sorts of triangles, whose numbers begin with `first`, at the beginning of `places`. Returns how many
 /// there are: of triangles that have no box there is nothing.
 fn boxes(
@@ -233,12 +309,8 @@ impl Store for Packed<'_> {
     fn unit(&self, primitives: &[Primitive]) -> Block {
         let mut block = Block::EMPTY;
         for (lane, primitive) in primitives.iter().enumerate() {
-            block.numbers[lane] = primitive.number();
-            for (corner, &vertex) in self.triangles[primitive.number() as usize].iter().enumerate() {
-                for axis in 0..3 {
-                    block.vertices[corner][axis][lane] = self.vertices[vertex as usize][axis];
-                }
-            }
+            let corners = self.triangles[primitive.number() as usize];
+            block.set(lane, primitive.number(), corners.map(|vertex| self.vertices[vertex as usize]));
         }
         block
     }

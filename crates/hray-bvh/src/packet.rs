@@ -3,7 +3,7 @@
 
 use crate::prefetch::prefetch;
 use crate::ray::{FLATTEST, SLACK};
-use crate::tree::{COUNT_SHIFT, LEAF, MOST, Node, Tree, WIDTH, entry, plane};
+use crate::tree::{Child, LEAF, Node, Tree, WIDTH, entry, plane};
 use fearless_simd::f32x8;
 use fearless_simd::prelude::*;
 use std::ops::Range;
@@ -240,9 +240,7 @@ impl Tree {
                     continue;
                 }
             } else {
-                let first = (child & (MOST as u32 - 1)) as usize;
-                let count = ((child & !LEAF) >> COUNT_SHIFT) as usize + 1;
-                done |= visit(simd, rays, lanes, first..first + count);
+                done |= visit(simd, rays, lanes, Child(child).units());
                 if done & all == all {
                     return done;
                 }

@@ -56,6 +56,13 @@ impl Child {
     pub(crate) fn is_leaf(self) -> bool {
         self.0 & LEAF != 0
     }
+
+    /// A leaf's units.
+    #[inline(always)]
+    pub(crate) fn units(self) -> std::ops::Range<usize> {
+        let first = (self.0 & (MOST as u32 - 1)) as usize;
+        first..first + ((self.0 & !LEAF) >> COUNT_SHIFT) as usize + 1
+    }
 }
 
 impl Node {
@@ -84,6 +91,14 @@ impl Node {
     #[inline(always)]
     pub(crate) fn child(&self, slot: usize) -> u32 {
         self.children[slot]
+    }
+
+    /// The box of all children.
+    fn all(&self) -> Bounds {
+        let [min_x, max_x, min_y, max_y, min_z, max_z] = &self.bounds;
+        let least = |side: &[f32; WIDTH]| side.iter().copied().fold(f32::INFINITY, f32::min);
+        let greatest = |side: &[f32; WIDTH]| side.iter().copied().fold(f32::NEG_INFINITY, f32::max);
+        Bounds { min: [min_x, min_y, min_z].map(least), max: [max_x, max_y, max_z].map(greatest) }
     }
 
     /// With all children moved behind others.
@@ -210,6 +225,29 @@ impl Tree {
         self.nodes.len()
     }
 
+    /// Works out all boxes anew, from the bottom up. `leaf` is the box of what is in units.
+    pub(crate) fn refit(&mut self, leaf: impl Fn(std::ops::Range<usize>) -> Bounds) {
+        let nodes = &mut self.nodes[..];
+        let mut bounds = Bounds::EMPTY;
+        // A child comes after its parent.
+        for index in (0..nodes.len()).rev() {
+            let mut node = nodes[index];
+            bounds = Bounds::EMPTY;
+            for slot in 0..WIDTH {
+                let child = Child(node.children[slot]);
+                if child.0 == NOTHING {
+                    continue;
+                }
+                let of_child =
+                    if child.is_leaf() { leaf(child.units()) } else { nodes[child.0 as usize].all() };
+                node.set(slot, &of_child, child);
+                bounds = bounds.union(&of_child);
+            }
+            nodes[index] = node;
+        }
+        (self.bounds, self.reach) = (bounds, bounds.reach());
+    }
+
     /// Visits leaves from the nearest on, until what remains is farther than `ray.far`. `ray.near` is not negative.
     #[inline(always)]
     pub fn closest<S: Simd>(&self, simd: S, ray: &mut Ray, stack: &mut Stack, leaves: &mut impl Leaves) {
@@ -323,9 +361,7 @@ impl Tree {
                     continue;
                 }
             } else {
-                let first = (child & (MOST as u32 - 1)) as usize;
-                let count = ((child & !LEAF) >> COUNT_SHIFT) as usize + 1;
-                if visit(simd, leaves, ray, first..first + count) {
+                if visit(simd, leaves, ray, Child(child).units()) {
                     return true;
                 }
             }

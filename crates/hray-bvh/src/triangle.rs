@@ -11,7 +11,7 @@
 //! what remains of small ones is not worth much. Such triangles are tested again in double precision, where both are
 //! exact. What that leaves of errors is less than what boxes are widened by ([`Ray::new`]).
 
-use crate::Ray;
+use crate::{Bounds, Ray};
 use fearless_simd::f32x8;
 use fearless_simd::prelude::*;
 use zerocopy::{FromBytes, Immutable, IntoBytes, KnownLayout};
@@ -21,6 +21,9 @@ const FLAT: f32 = 8.0;
 
 /// How many triangles are tested at once.
 pub(crate) const LANES: usize = 8;
+
+/// The number of a triangle that is missing.
+pub(crate) const NO_TRIANGLE: u32 = u32::MAX;
 
 /// Up to eight triangles, in five cache lines. Those that are missing have no numbers for coordinates, and are never hit.
 #[repr(C, align(64))]
@@ -41,7 +44,38 @@ impl PartialEq for Block {
 }
 
 impl Block {
-    pub(crate) const EMPTY: Self = Self { vertices: [[[f32::NAN; LANES]; 3]; 3], numbers: [u32::MAX; LANES] };
+    pub(crate) const EMPTY: Self =
+        Self { vertices: [[[f32::NAN; LANES]; 3]; 3], numbers: [NO_TRIANGLE; LANES] };
+
+    /// Puts a triangle into a lane.
+    #[inline(always)]
+    pub(crate) fn set(&mut self, lane: usize, number: u32, corners: [[f32; 3]; 3]) {
+        self.numbers[lane] = number;
+        for (corner, place) in corners.iter().enumerate() {
+            for (axis, x) in place.iter().enumerate() {
+                self.vertices[corner][axis][lane] = *x;
+            }
+        }
+    }
+
+    /// Its triangles that can be hit.
+    pub(crate) fn present(&self) -> impl Iterator<Item = u32> {
+        self.numbers.iter().zip(&self.vertices[0][0]).filter(|(_, x)| !x.is_nan()).map(|(number, _)| *number)
+    }
+
+    /// The box of its triangles; comparisons leave out what is no number.
+    pub(crate) fn bounds(&self) -> Bounds {
+        let mut bounds = Bounds::EMPTY;
+        for corner in &self.vertices {
+            for (axis, column) in corner.iter().enumerate() {
+                for &x in column {
+                    bounds.min[axis] = if x < bounds.min[axis] { x } else { bounds.min[axis] };
+                    bounds.max[axis] = if x > bounds.max[axis] { x } else { bounds.max[axis] };
+                }
+            }
+        }
+        bounds
+    }
 }
 
 /// A ray's shear to the z-axis.
@@ -242,10 +276,7 @@ mod tests {
             let count = 1 + round % LANES;
             let corners: Vec<[[f32; 3]; 3]> = (0..count).map(|_| [0; 3].map(|_| point())).collect();
             for (lane, corners) in corners.iter().enumerate() {
-                block.numbers[lane] = lane as u32;
-                for (corner, axis) in (0..3).flat_map(|corner| (0..3).map(move |axis| (corner, axis))) {
-                    block.vertices[corner][axis][lane] = corners[corner][axis];
-                }
+                block.set(lane, lane as u32, *corners);
             }
             let (origin, direction) = (point(), point());
             // Along the first triangle's plane, now and then.
