@@ -64,6 +64,8 @@ const MOST_BINS: usize = 32;
 const PARALLEL: usize = 1 << 13;
 /// Things that a thread bins at a time.
 pub(crate) const CHUNK: usize = 1 << 15;
+/// Smaller sets are not worth a call.
+const FEW: usize = 64;
 /// Deeper down, sets are halved.
 const DEEPEST: usize = 40;
 
@@ -99,10 +101,16 @@ impl Wide {
     }
 }
 
+/// The vectors for a set: of a small one those that every machine of the kind has, because a call to code for others takes
+/// longer than they save.
+fn of_few(level: Level, primitives: &[Primitive]) -> Level {
+    if primitives.len() < FEW { Level::baseline() } else { level }
+}
+
 /// The box of things, and that of their middles.
 fn extents(level: Level, primitives: &[Primitive]) -> [Wide; 2] {
     if primitives.len() <= CHUNK {
-        return dispatch!(level, simd => extents_in(simd, primitives));
+        return dispatch!(of_few(level, primitives), simd => extents_in(simd, primitives));
     }
     let join = |[mut a, mut b]: [Wide; 2], [other_a, other_b]: [Wide; 2]| {
         a.add(&other_a);
@@ -460,7 +468,7 @@ impl Ruler {
     }
 
     fn count(&self, level: Level, primitives: &[Primitive], bins: &mut Bins) {
-        dispatch!(level, simd => self.count_in(simd, primitives, bins));
+        dispatch!(of_few(level, primitives), simd => self.count_in(simd, primitives, bins));
     }
 
     /// The same arithmetic as in `place`, for all axes at once.
@@ -611,7 +619,7 @@ struct Sides {
 /// Brings things that belong to the left before all others.
 fn partition(level: Level, here: &mut [Primitive], ruler: &Ruler, cut: &Cut) -> Sides {
     if here.len() <= CHUNK {
-        return dispatch!(level, simd => partition_in(simd, here, ruler, cut));
+        return dispatch!(of_few(level, here), simd => partition_in(simd, here, ruler, cut));
     }
     // Each chunk by itself; then what is right in the left part is exchanged with what is left in the right part.
     let chunks = here.par_chunks_mut(CHUNK);
