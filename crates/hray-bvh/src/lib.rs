@@ -10,6 +10,7 @@
 mod bounds;
 mod build;
 mod collapse;
+mod memory;
 mod mesh;
 mod packet;
 mod prefetch;

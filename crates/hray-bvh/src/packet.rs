@@ -3,7 +3,7 @@
 
 use crate::prefetch::prefetch;
 use crate::ray::{FLATTEST, SLACK};
-use crate::tree::{COUNT_SHIFT, LEAF, MOST, Node, Tree, WIDTH, entry, plane};
+use crate::tree::{Child, LEAF, Node, Tree, WIDTH, entry, plane};
 use fearless_simd::f32x8;
 use fearless_simd::prelude::*;
 use std::ops::Range;
@@ -194,6 +194,7 @@ impl Tree {
         mut visit: impl FnMut(S, &mut Packet, u32, Range<usize>) -> u32,
     ) -> u32 {
         let Some(root) = self.root else { return 0 };
+        let nodes = &self.nodes[..];
         let all = lanes & rays.sane;
         if all == 0 {
             return 0;
@@ -206,7 +207,7 @@ impl Tree {
         let (mut child, mut lanes) = (root.0, all);
         loop {
             if child & LEAF == 0 {
-                let node = &self.nodes[child as usize];
+                let node = &nodes[child as usize];
                 let (nearest, met) = enter(simd, node, rays, lanes);
                 let mut any = fold(met);
                 if any != 0 {
@@ -218,7 +219,7 @@ impl Tree {
                         any &= any - 1;
                         let reference = node.child(slot);
                         // A leaf's number is that of no node.
-                        if let Some(node) = self.nodes.get(reference as usize) {
+                        if let Some(node) = nodes.get(reference as usize) {
                             prefetch(node);
                         }
                         let new = Entry { key: entry(distances[slot], reference), lanes: of_slot(met, slot) };
@@ -239,9 +240,7 @@ impl Tree {
                     continue;
                 }
             } else {
-                let first = (child & (MOST as u32 - 1)) as usize;
-                let count = ((child & !LEAF) >> COUNT_SHIFT) as usize + 1;
-                done |= visit(simd, rays, lanes, first..first + count);
+                done |= visit(simd, rays, lanes, Child(child).units());
                 if done & all == all {
                     return done;
                 }

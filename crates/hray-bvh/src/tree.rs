@@ -1,10 +1,12 @@
 //! The tree, and the walk along a ray through it.
 
 use crate::build::{Primitive, Store, build};
+use crate::memory::Array;
 use crate::prefetch::prefetch;
 use crate::{Bounds, Ray};
 use fearless_simd::prelude::*;
 use fearless_simd::{f32x8, mask32x8};
+use zerocopy::{FromBytes, Immutable, IntoBytes, KnownLayout};
 
 /// How many children a node has.
 pub(crate) const WIDTH: usize = 8;
@@ -18,9 +20,12 @@ pub(crate) const MOST_UNITS: usize = 16;
 /// The most units, or nodes, in a tree.
 pub(crate) const MOST: usize = 1 << COUNT_SHIFT;
 
+/// The child where there is none: a root, which is the first of all nodes, is no child.
+const NOTHING: u32 = 0;
+
 /// Eight boxes, and what is in them. Four cache lines.
 #[repr(C, align(64))]
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, FromBytes, IntoBytes, Immutable, KnownLayout)]
 pub(crate) struct Node {
     /// Least x, greatest x, least y, ...: so that a ray's direction picks the planes that it comes to first.
     pub(crate) bounds: [[f32; WIDTH]; 6],
@@ -43,13 +48,20 @@ impl Child {
     }
 
     /// Moved, where its nodes and units are put behind others.
-    pub(crate) fn moved(self, nodes: usize, units: usize) -> Self {
+    fn moved(self, nodes: usize, units: usize) -> Self {
         Self(self.0 + if self.is_leaf() { units as u32 } else { nodes as u32 })
     }
 
     #[inline(always)]
     pub(crate) fn is_leaf(self) -> bool {
         self.0 & LEAF != 0
+    }
+
+    /// A leaf's units.
+    #[inline(always)]
+    pub(crate) fn units(self) -> std::ops::Range<usize> {
+        let first = (self.0 & (MOST as u32 - 1)) as usize;
+        first..first + ((self.0 & !LEAF) >> COUNT_SHIFT) as usize + 1
     }
 }
 
@@ -64,7 +76,7 @@ impl Node {
             [f32::INFINITY; WIDTH],
             [f32::NEG_INFINITY; WIDTH],
         ],
-        children: [0; WIDTH],
+        children: [NOTHING; WIDTH],
         _rest: [0; WIDTH],
     };
 
@@ -76,23 +88,26 @@ impl Node {
         self.children[slot] = child.0;
     }
 
-    /// Says where a child is, now that it is known.
-    pub(crate) fn point(&mut self, slot: usize, child: Child) {
-        self.children[slot] = child.0;
-    }
-
     #[inline(always)]
     pub(crate) fn child(&self, slot: usize) -> u32 {
         self.children[slot]
     }
 
-    /// Moves all children behind others.
-    pub(crate) fn move_children(&mut self, nodes: usize, units: usize) {
-        for slot in 0..WIDTH {
-            if self.bounds[0][slot] <= self.bounds[1][slot] {
-                self.children[slot] = Child(self.children[slot]).moved(nodes, units).0;
-            }
+    /// The box of all children.
+    fn all(&self) -> Bounds {
+        let [min_x, max_x, min_y, max_y, min_z, max_z] = &self.bounds;
+        let least = |side: &[f32; WIDTH]| side.iter().copied().fold(f32::INFINITY, f32::min);
+        let greatest = |side: &[f32; WIDTH]| side.iter().copied().fold(f32::NEG_INFINITY, f32::max);
+        Bounds { min: [min_x, min_y, min_z].map(least), max: [max_x, max_y, max_z].map(greatest) }
+    }
+
+    /// With all children moved behind others.
+    pub(crate) fn moved(&self, nodes: usize, units: usize) -> Self {
+        let mut moved = *self;
+        for child in moved.children.iter_mut().filter(|child| **child != NOTHING) {
+            *child = Child(*child).moved(nodes, units).0;
         }
+        moved
     }
 
     /// Where a ray enters each child, and which it meets between `near` and `far`.
@@ -162,7 +177,7 @@ pub(crate) fn entry(distance: f32, child: u32) -> u64 {
 /// A tree of boxes of eight children.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tree {
-    pub(crate) nodes: Vec<Node>,
+    pub(crate) nodes: Array<Node>,
     pub(crate) root: Option<Child>,
     pub(crate) bounds: Bounds,
     /// The greatest coordinate of these.
@@ -176,10 +191,14 @@ impl Tree {
     /// leaves count them. Empty boxes are left out.
     #[must_use]
     pub fn of_boxes(boxes: &[Bounds]) -> (Self, Vec<u32>) {
-        let primitives = (0u32..).zip(boxes).filter(|(_, bounds)| !bounds.is_empty());
-        let primitives = primitives.map(|(number, bounds)| Primitive::new(bounds, number)).collect();
-        let (tree, Numbers(numbers)) = build(primitives, Numbers(Vec::new()));
-        (tree, numbers)
+        let number = boxes.iter().filter(|bounds| !bounds.is_empty()).count();
+        let mut primitives = Array::zeroed(number);
+        let all = (0u32..).zip(boxes).filter(|(_, bounds)| !bounds.is_empty());
+        for (primitive, (number, bounds)) in primitives.iter_mut().zip(all) {
+            *primitive = Primitive::new(bounds, number);
+        }
+        let (tree, numbers) = build(primitives, &Numbers);
+        (tree, numbers.to_vec())
     }
 
     /// The greatest coordinate, which rays want to know.
@@ -197,13 +216,36 @@ impl Tree {
     /// Its bytes.
     #[must_use]
     pub fn bytes(&self) -> usize {
-        self.nodes.capacity() * size_of::<Node>()
+        self.nodes.bytes()
     }
 
     /// How many nodes there are.
     #[must_use]
     pub fn nodes(&self) -> usize {
         self.nodes.len()
+    }
+
+    /// Works out all boxes anew, from the bottom up. `leaf` is the box of what is in units.
+    pub(crate) fn refit(&mut self, leaf: impl Fn(std::ops::Range<usize>) -> Bounds) {
+        let nodes = &mut self.nodes[..];
+        let mut bounds = Bounds::EMPTY;
+        // A child comes after its parent.
+        for index in (0..nodes.len()).rev() {
+            let mut node = nodes[index];
+            bounds = Bounds::EMPTY;
+            for slot in 0..WIDTH {
+                let child = Child(node.children[slot]);
+                if child.0 == NOTHING {
+                    continue;
+                }
+                let of_child =
+                    if child.is_leaf() { leaf(child.units()) } else { nodes[child.0 as usize].all() };
+                node.set(slot, &of_child, child);
+                bounds = bounds.union(&of_child);
+            }
+            nodes[index] = node;
+        }
+        (self.bounds, self.reach) = (bounds, bounds.reach());
     }
 
     /// Visits leaves from the nearest on, until what remains is farther than `ray.far`. `ray.near` is not negative.
@@ -249,10 +291,10 @@ impl Tree {
     }
 
     #[inline(always)]
-    fn prefetch(&self, child: u32, leaves: &impl Leaves) {
+    fn prefetch(nodes: &[Node], child: u32, leaves: &impl Leaves) {
         if child & LEAF != 0 {
             leaves.prefetch((child & (MOST as u32 - 1)) as usize);
-        } else if let Some(node) = self.nodes.get(child as usize) {
+        } else if let Some(node) = nodes.get(child as usize) {
             prefetch(node);
         }
     }
@@ -268,13 +310,14 @@ impl Tree {
         visit: impl Fn(S, &mut L, &mut Ray, std::ops::Range<usize>) -> bool,
     ) -> bool {
         let Some(root) = self.root else { return false };
+        let nodes = &self.nodes[..];
         stack.fit(self);
         let entries = &mut stack.entries[..];
         let mut top = 0;
         let mut child = root.0;
         loop {
             if child & LEAF == 0 {
-                let node = &self.nodes[child as usize];
+                let node = &nodes[child as usize];
                 let (enter, met) = node.enter(simd, ray, ray.far);
                 let mut met = met.to_bitmask() as u32;
                 if met != 0 {
@@ -284,13 +327,13 @@ impl Tree {
                     if met == 0 {
                         continue;
                     }
-                    self.prefetch(child, leaves);
+                    Self::prefetch(nodes, child, leaves);
                     let distances: [f32; WIDTH] = enter.into();
                     let mut nearest = entry(distances[slot], child);
                     if met & (met - 1) == 0 {
                         // Two, most often: no loop.
                         let slot = (met.trailing_zeros() & 7) as usize;
-                        self.prefetch(node.children[slot], leaves);
+                        Self::prefetch(nodes, node.children[slot], leaves);
                         let new = entry(distances[slot], node.children[slot]);
                         entries[top] = nearest.max(new);
                         top += 1;
@@ -302,7 +345,7 @@ impl Tree {
                     while met != 0 {
                         let slot = (met.trailing_zeros() & 7) as usize;
                         met &= met - 1;
-                        self.prefetch(node.children[slot], leaves);
+                        Self::prefetch(nodes, node.children[slot], leaves);
                         let new = entry(distances[slot], node.children[slot]);
                         let farther = nearest.max(new);
                         nearest = nearest.min(new);
@@ -318,9 +361,7 @@ impl Tree {
                     continue;
                 }
             } else {
-                let first = (child & (MOST as u32 - 1)) as usize;
-                let count = ((child & !LEAF) >> COUNT_SHIFT) as usize + 1;
-                if visit(simd, leaves, ray, first..first + count) {
+                if visit(simd, leaves, ray, Child(child).units()) {
                     return true;
                 }
             }
@@ -358,30 +399,15 @@ impl<F: FnMut(std::ops::Range<usize>)> Leaves for Visit<F> {
     }
 }
 
-/// What is in the leaves of a tree of boxes.
-struct Numbers(Vec<u32>);
+/// Leaves of a tree of boxes hold their numbers.
+struct Numbers;
 
 impl Store for Numbers {
+    type Unit = u32;
     const UNIT: usize = 1;
     const NODE_COST: f32 = 4.0;
 
-    fn empty(&self) -> Self {
-        Self(Vec::new())
-    }
-
-    fn len(&self) -> usize {
-        self.0.len()
-    }
-
-    fn push(&mut self, primitives: &[Primitive]) {
-        self.0.extend(primitives.iter().map(Primitive::number));
-    }
-
-    fn append(&mut self, other: Self) {
-        self.0.extend(other.0);
-    }
-
-    fn reserve(&mut self, units: usize) {
-        self.0.reserve_exact(units);
+    fn unit(&self, primitives: &[Primitive]) -> u32 {
+        primitives.first().map_or(u32::MAX, Primitive::number)
     }
 }

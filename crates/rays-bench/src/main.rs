@@ -4,7 +4,7 @@
 
 use clap::Parser;
 use rays_bench::embree::Embree;
-use rays_bench::measure::{Clock, Contestant, Role, measure};
+use rays_bench::measure::{Clock, Contestant, Role, measure, median};
 use rays_bench::meshes::{Mesh, MeshName, TERRAIN_CELLS, bunny, terrain};
 use rays_bench::rays::{Kind, Rays};
 use rays_bench::{Result, ours, report};
@@ -27,6 +27,9 @@ struct Arguments {
     /// Interleaved runs of each tracer, of which the median is shown.
     #[arg(long, default_value_t = 5)]
     runs: usize,
+    /// How often each tracer is built, in turn; the median of the times is shown.
+    #[arg(long, default_value_t = 1)]
+    builds: usize,
     /// The clock by which building and tracing are timed; `cpu` where other work disturbs the machine.
     #[arg(long, value_enum, default_value_t = Clock::Wall)]
     clock: Clock,
@@ -69,8 +72,8 @@ fn main() -> ExitCode {
 }
 
 fn run(arguments: &Arguments) -> Result<()> {
-    if arguments.runs == 0 || arguments.threads.contains(&0) {
-        return Err("there must be a run at least, and a thread".into());
+    if arguments.runs == 0 || arguments.builds == 0 || arguments.threads.contains(&0) {
+        return Err("there must be a run at least, a build, and a thread".into());
     }
     let clock = arguments.clock;
     let embree = arguments.embree.as_deref().map(Embree::load).transpose()?;
@@ -88,9 +91,22 @@ fn run(arguments: &Arguments) -> Result<()> {
         };
         let mut rays = None;
         for &threads in &arguments.threads {
-            let mut contestants =
-                embree.map_or(Ok(Vec::new()), |embree| embree.build(&mesh, threads, clock))?;
-            contestants.extend(ours::build(&mesh, threads, clock)?);
+            let build = || -> Result<Vec<Contestant>> {
+                let mut all = embree.map_or(Ok(Vec::new()), |embree| embree.build(&mesh, threads, clock))?;
+                all.extend(ours::build(&mesh, threads, clock)?);
+                Ok(all)
+            };
+            let mut contestants = build()?;
+            let mut times: Vec<Vec<f64>> =
+                contestants.iter().map(|contestant| vec![contestant.build]).collect();
+            for _ in 1..arguments.builds {
+                for (times, contestant) in times.iter_mut().zip(build()?) {
+                    times.push(contestant.build);
+                }
+            }
+            for (contestant, times) in contestants.iter_mut().zip(times) {
+                contestant.build = median(times);
+            }
             let Some(first) = reference(&contestants) else {
                 return Err("There is nobody to trace rays.".into());
             };
