@@ -404,7 +404,7 @@ mod tests {
         let summary = summary(2, &format!("{plane} {spheres}"), lights);
         assert_eq!(
             summary.objects,
-            Objects { total: 3, spheres: 2, planes: 1, boxes: 0, round: 0, csg: 0, meshes: 0 }
+            Objects { total: 3, spheres: 2, planes: 1, boxes: 0, round: 0, implicit: 0, csg: 0, meshes: 0 }
         );
         assert_eq!((summary.point_lights, summary.ambient_lights), (1, 1));
         assert_eq!((summary.materials.reflective, summary.materials.transparent), (1, 1));

