@@ -5,7 +5,7 @@ use super::geometry::{Geometry, Root};
 use super::shapes::Rays;
 use super::solid::Walk;
 use super::solid_boxes::Boxes;
-use super::trace::{Nearest, placed_hit, single_hit, single_shadow, solid_hit};
+use super::trace::{Nearest, only, placed_hit, single_hit, single_shadow, solid_hit};
 use fearless_simd::f32x8;
 use fearless_simd::prelude::*;
 use hray_bvh::{AnyLeaves, ClosestLeaves, MOST_RAYS, Packet, Tree};
@@ -110,7 +110,7 @@ impl Accelerated {
                 let all = (1 << Lanes::<S>::LEN) - 1;
                 self.tree.closest_packet(simd, &mut narrowed, all, &mut stack, &mut leaves);
             }
-            None => leaves.test(simd, 0..self.items.len()),
+            None => leaves.test(simd, u32::MAX, 0..self.items.len()),
         }
         *nearest = leaves.nearest;
         walk.packets = stack;
@@ -175,8 +175,8 @@ struct Search<'a, S: Simd> {
 
 impl<S: Simd> ClosestLeaves<S> for Search<'_, S> {
     #[inline(always)]
-    fn closest(&mut self, simd: S, rays: &mut Packet, _lanes: u32, units: Range<usize>) {
-        self.test(simd, units);
+    fn closest(&mut self, simd: S, rays: &mut Packet, lanes: u32, units: Range<usize>) {
+        self.test(simd, lanes, units);
         let far: f32x8<S> = up_to(simd, self.nearest.distance).simd_into(simd);
         rays.far = far.simd_lt(f32::MAX).select(far, f32x8::splat(simd, f32::MAX)).into();
     }
@@ -184,7 +184,7 @@ impl<S: Simd> ClosestLeaves<S> for Search<'_, S> {
 
 impl<S: Simd> Search<'_, S> {
     #[inline(always)]
-    fn test(&mut self, simd: S, units: Range<usize>) {
+    fn test(&mut self, simd: S, lanes: u32, units: Range<usize>) {
         for &item in &self.items[units] {
             let first = self.nothing + 1.0;
             match item {
@@ -207,7 +207,7 @@ impl<S: Simd> Search<'_, S> {
                     }
                 }
                 Item::Single(leaf) => {
-                    let far = self.nearest.distance;
+                    let far = only(simd, self.nearest.distance, lanes);
                     let (distance, triangle) =
                         single_hit(simd, self.geometry, leaf as usize, self.rays, far, self.walk);
                     let met = distance.simd_eq(distance);
@@ -216,7 +216,8 @@ impl<S: Simd> Search<'_, S> {
                     self.nearest.triangle = taken.select(triangle, self.nearest.triangle);
                 }
                 Item::Solid(solid) => {
-                    let (solid, far) = (self.geometry.solid_at(solid), self.nearest.distance);
+                    let solid = self.geometry.solid_at(solid);
+                    let far = only(simd, self.nearest.distance, lanes);
                     let [distance, leaf, triangle] =
                         solid_hit(simd, self.geometry, solid, self.rays, far, first, self.walk);
                     let taken = self.nearest.take_any(distance, distance.simd_eq(distance), leaf);
@@ -238,26 +239,28 @@ struct Shadows<'a, S: Simd> {
 
 impl<S: Simd> AnyLeaves<S> for Shadows<'_, S> {
     #[inline(always)]
-    fn any(&mut self, simd: S, _lanes: u32, units: Range<usize>) -> u32 {
+    fn any(&mut self, simd: S, lanes: u32, units: Range<usize>) -> u32 {
         for &item in &self.items[units] {
+            let left = lanes & !(self.dark.to_bitmask() as u32);
             let met = match item {
                 Item::Plain(leaf) => self.geometry.shape(leaf as usize).hit(simd, self.rays),
                 Item::Placed(leaf) => placed_hit(simd, self.geometry, leaf as usize, self.rays),
                 Item::Single(leaf) => {
-                    self.dark |= single_shadow(
-                        simd,
-                        self.geometry,
-                        leaf as usize,
-                        self.rays,
-                        self.distance,
-                        self.walk,
-                    );
+                    let far = only(simd, self.distance, left);
+                    self.dark |= single_shadow(simd, self.geometry, leaf as usize, self.rays, far, self.walk);
                     None
                 }
                 Item::Solid(solid) => {
                     let solid = self.geometry.solid_at(solid);
-                    let [at, ..] =
-                        solid_hit(simd, self.geometry, solid, self.rays, self.distance, 0.0, self.walk);
+                    let [at, ..] = solid_hit(
+                        simd,
+                        self.geometry,
+                        solid,
+                        self.rays,
+                        only(simd, self.distance, left),
+                        0.0,
+                        self.walk,
+                    );
                     Some((at, at.simd_eq(at)))
                 }
             };

@@ -54,8 +54,17 @@ struct Walk {
 impl PreparedImplicit {
     /// Makes a surface ready, as one of 2 to the power of `share` of them.
     pub(super) fn new(implicit: Arc<Implicit>, share: u32, tables: &NoiseTables) -> Self {
+        Self::with_level(Level::new(), implicit, share, tables)
+    }
+
+    /// The same for some of the machine's vectors.
+    pub(super) fn with_level(
+        level: Level,
+        implicit: Arc<Implicit>,
+        share: u32,
+        tables: &NoiseTables,
+    ) -> Self {
         let Implicit { function, min, max } = &*implicit;
-        let level = Level::new();
         let ranges = RangePlan::new(function, tables);
         let cells = Cells::new(
             level,

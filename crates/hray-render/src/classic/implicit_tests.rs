@@ -397,3 +397,32 @@ fn plain_cases() {
     let found = double.hit(&ray([0.0, 0.0, 5.0], [0.0, 0.0, -1.0]), 0.0).unwrap();
     assert!((found - 4.0).abs() < 1e-8, "{found}");
 }
+
+/// Whatever vectors the machine has, the same hits to the bit.
+#[test]
+fn vectors_of_any_width_find_the_same() {
+    let levels = [Some(Level::new()), Level::new().as_avx2().map(Level::Avx2), Some(Level::baseline())];
+    for kind in KINDS {
+        let implicit = Arc::new(Implicit {
+            function: function(kind, 1.0, 0.2),
+            min: DVec3::splat(-1.7),
+            max: DVec3::splat(1.7),
+        });
+        let mut hits: Vec<Vec<Option<f64>>> = Vec::new();
+        for level in levels.iter().flatten() {
+            let prepared = PreparedImplicit::with_level(*level, implicit.clone(), 2, &NoiseTables::default());
+            let (stack, scratch) = (&mut Stack::default(), &mut Scratch::default());
+            let mut hit = |i: i32| {
+                let (x, y) = (f64::from(i % 32) / 16.0 - 1.0, f64::from(i / 32) / 16.0 - 1.0);
+                let ray = Ray { origin: DVec3::new(x, y, 5.0), direction: DVec3::new(x * 0.1, 0.01, -1.0) };
+                dispatch!(*level, simd => prepared.hit(simd, &ray, [0.0, f64::INFINITY], stack, scratch))
+            };
+            hits.push((0..1024).map(&mut hit).collect());
+        }
+        assert!(hits[0].iter().flatten().count() > 200, "{kind:?}");
+        for other in &hits[1..] {
+            let different = hits[0].iter().zip(other).filter(|(a, b)| a != b).count();
+            assert_eq!(different, 0, "{kind:?}");
+        }
+    }
+}

@@ -132,8 +132,8 @@ pub(super) fn shadowed<S: Simd>(
                 }
             }
             Root::Solid(solid) => {
-                let [at, ..] =
-                    solid_hit(simd, geometry, geometry.solid_at(*solid), rays, distance, 0.0, walk);
+                let far = only(simd, distance, lanes & !(dark.to_bitmask() as u32));
+                let [at, ..] = solid_hit(simd, geometry, geometry.solid_at(*solid), rays, far, 0.0, walk);
                 // Where nothing is met, the distance is no number.
                 dark |= at.simd_le(distance);
                 if dark.all_true() {
@@ -141,7 +141,8 @@ pub(super) fn shadowed<S: Simd>(
                 }
             }
             Root::Single(leaf) => {
-                dark |= single_shadow(simd, geometry, *leaf as usize, rays, distance, walk);
+                let far = only(simd, distance, lanes & !(dark.to_bitmask() as u32));
+                dark |= single_shadow(simd, geometry, *leaf as usize, rays, far, walk);
                 if dark.all_true() {
                     return dark;
                 }
@@ -159,6 +160,18 @@ pub(super) fn shadowed<S: Simd>(
     }
 }
 
+/// Distances of the rays of `lanes`, and less than 0 for others: what takes rays one at a time leaves these out.
+#[inline(always)]
+pub(super) fn only<S: Simd>(simd: S, far: Lanes<S>, lanes: u32) -> Lanes<S> {
+    let mut kept = [-1.0; MAX_LANES];
+    for (lane, kept) in kept.iter_mut().enumerate().take(Lanes::<S>::LEN) {
+        if lanes >> lane & 1 == 1 {
+            *kept = far[lane];
+        }
+    }
+    Lanes::<S>::from_slice(simd, &kept[..Lanes::<S>::LEN])
+}
+
 /// The rays that meet a leaf, one at a time, up to `far` (or at any distance, where that is no number): how far, which is no
 /// number where a ray misses, and which triangle, where it is a mesh.
 #[inline(always)]
@@ -172,7 +185,7 @@ pub(super) fn single_hit<S: Simd>(
 ) -> (Lanes<S>, Lanes<S>) {
     let (mut distances, mut triangles) = ([f64::NAN; MAX_LANES], [0.0; MAX_LANES]);
     let shape = geometry.shape(leaf);
-    for lane in 0..Lanes::<S>::LEN {
+    for lane in (0..Lanes::<S>::LEN).filter(|lane| !is_left_out(far[*lane])) {
         let far = if far[lane] < f64::INFINITY { far[lane] } else { f64::INFINITY };
         let ends = [geometry.nearest, far];
         let ray = geometry.own_ray(leaf, &ray_of(rays, lane));
@@ -204,7 +217,7 @@ pub(super) fn single_shadow<S: Simd>(
 ) -> Mask<S> {
     let mut met = [f64::NAN; MAX_LANES];
     let shape = geometry.shape(leaf);
-    for lane in 0..Lanes::<S>::LEN {
+    for lane in (0..Lanes::<S>::LEN).filter(|lane| !is_left_out(distance[*lane])) {
         let ends = [geometry.nearest, distance[lane]];
         let ray = geometry.own_ray(leaf, &ray_of(rays, lane));
         let is_met = match shape {
@@ -220,6 +233,12 @@ pub(super) fn single_shadow<S: Simd>(
     }
     let met = Lanes::<S>::from_slice(simd, &met[..Lanes::<S>::LEN]);
     met.simd_eq(met)
+}
+
+/// See [`only`]; before the first hit distances are no numbers.
+#[inline(always)]
+fn is_left_out(far: f64) -> bool {
+    far < 0.0
 }
 
 /// One of the rays.
@@ -265,7 +284,7 @@ pub(super) fn solid_hit<S: Simd>(
     walk: &mut Walk,
 ) -> [Lanes<S>; 3] {
     let mut columns = [[f64::NAN; MAX_LANES], [f64::NAN; MAX_LANES], [0.0; MAX_LANES]];
-    for lane in 0..Lanes::<S>::LEN {
+    for lane in (0..Lanes::<S>::LEN).filter(|lane| !is_left_out(far[*lane])) {
         let far = if far[lane] < f64::INFINITY { far[lane] } else { f64::INFINITY };
         if let Some(hit) = solid.hit(simd, geometry, &ray_of(rays, lane), far, walk) {
             let hit = [hit.at, first + hit.leaf as f64, f64::from(hit.triangle)];
