@@ -263,12 +263,8 @@ impl PreparedImplicit {
 
     /// The function at points.
     fn at<const N: usize>(&self, points: &[DVec3; N], scratch: &mut Scratch) -> [f64; N] {
-        let [x, y, z] = [0, 1, 2].map(|axis| points.map(|p| p[axis]));
-        let mut inputs: [&[f64]; hray_expr::Input::COUNT] = [&[]; hray_expr::Input::COUNT];
-        inputs[..3].copy_from_slice(&[&x, &y, &z]);
-        let mut out = [0.0; N];
-        self.field.values.evaluate(self.field.level, &inputs, N, &mut scratch.roots.values, &mut [&mut out]);
-        out
+        let columns = [0, 1, 2].map(|axis| points.map(|p| p[axis]));
+        self.field.at(&columns, &mut scratch.roots.values)
     }
 
     /// How the function grows, by derivatives; where it has none, by differences. Of both sides of a crease, the middle.
@@ -297,7 +293,8 @@ impl PreparedImplicit {
         if gradient.is_finite() && gradient != DVec3::ZERO { gradient } else { -ray.direction }
     }
 
-    /// How far from a point along the normal, to either side, one has to be so that the function is not 0 there.
+    /// How far from a point along the normal, to either side, one has to be so that the function is not 0 there; the least
+    /// that is tried, where ranges do not tell.
     fn clear(&self, point: DVec3, normal: DVec3, scratch: &mut Scratch) -> f64 {
         let blur = 4.0 * f64::EPSILON * self.reach;
         let mut p = [Range::ZERO; 3];

@@ -78,22 +78,27 @@ impl Stretch {
 }
 
 impl Field {
-    /// The function at points of a line.
+    /// The function at points, given by their coordinates.
     #[inline(always)]
-    pub(super) fn along<const N: usize>(
+    pub(super) fn at<const N: usize>(
         &self,
-        line: &Line,
-        at: &[f64; N],
+        [x, y, z]: &[[f64; N]; 3],
         scratch: &mut PlanScratch,
     ) -> [f64; N] {
-        let [x, y, z] = [0, 1, 2].map(|axis| at.map(|at| line.base[axis] + line.direction[axis] * at));
         let mut inputs: [&[f64]; Input::COUNT] = [&[]; Input::COUNT];
-        inputs[Input::Px as usize] = &x;
-        inputs[Input::Py as usize] = &y;
-        inputs[Input::Pz as usize] = &z;
+        inputs[Input::Px as usize] = x;
+        inputs[Input::Py as usize] = y;
+        inputs[Input::Pz as usize] = z;
         let mut out = [0.0; N];
         self.values.evaluate(self.level, &inputs, N, scratch, &mut [&mut out]);
         out
+    }
+
+    /// The function at points of a line.
+    #[inline(always)]
+    fn along<const N: usize>(&self, line: &Line, at: &[f64; N], scratch: &mut PlanScratch) -> [f64; N] {
+        let points = [0, 1, 2].map(|axis| at.map(|at| line.base[axis] + line.direction[axis] * at));
+        self.at(&points, scratch)
     }
 
     /// Whether points of a line are inside.

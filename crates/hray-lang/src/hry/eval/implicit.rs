@@ -12,8 +12,7 @@ use hray_expr::{Binary, Extent, Node, NoiseKind, RangePlan, RangeScratch, Unary,
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-/// Surfaces that are known, by how many operations their functions have and whether a box was given: what is made again in
-/// a list is one surface.
+/// Surfaces that are known, by how many operations their functions have: what is made again in a list is one surface.
 pub(super) type Known = BTreeMap<usize, Vec<KnownSurface>>;
 
 /// An implicit surface as it was asked for.
